@@ -1,0 +1,3 @@
+//! Galpixmaps in fixed point.
+#![no_std]
+#![forbid(unsafe_code)]

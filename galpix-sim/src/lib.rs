@@ -1,0 +1,4 @@
+//! The host simulator: scenes with exact truth, importers, the engine on a lent memory, metrics and reports.
+
+pub mod picture;
+pub mod update;

@@ -1,0 +1,47 @@
+//! A picture in memory: what a renderer delivers, what a display shows, what a truth looks like.
+
+use std::path::Path;
+
+/// An 8-bit sRGB picture, rows from top to bottom, `width * height` pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// Pixels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// `[red, green, blue]`, row-major.
+    pub pixels: Vec<[u8; 3]>,
+}
+
+impl Picture {
+    /// A picture of one colour.
+    #[must_use]
+    pub fn filled(width: usize, height: usize, colour: [u8; 3]) -> Self {
+        Self { width, height, pixels: vec![colour; width * height] }
+    }
+
+    /// The pixel in column `x` of row `y`. Panics outside of the picture.
+    #[must_use]
+    pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
+        self.pixels[y * self.width + x]
+    }
+
+    /// The pixels as one run of bytes, red first.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        self.pixels.as_flattened()
+    }
+
+    /// The window of `width` x `height` pixels whose top left corner is (`left`, `top`). Panics if it is not inside.
+    #[must_use]
+    pub fn crop(&self, left: usize, top: usize, width: usize, height: usize) -> Self {
+        let pixels =
+            (top..top + height).flat_map(|y| self.pixels[y * self.width + left..][..width].iter().copied()).collect();
+        Self { width, height, pixels }
+    }
+
+    /// Writes the picture as an 8-bit PNG.
+    pub fn save_png(&self, path: &Path) -> image::ImageResult<()> {
+        image::save_buffer(path, self.bytes(), self.width as u32, self.height as u32, image::ColorType::Rgb8)
+    }
+}
