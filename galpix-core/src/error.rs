@@ -1,0 +1,143 @@
+//! What can be refused, and only while something is set up: after that, oddities are counted.
+
+use core::fmt;
+
+/// Why a bit budget cannot exist. Each sentence says the remedy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum BudgetError {
+    /// The extent, the recognition time or the propagation time is zero.
+    Zero,
+    /// `tau_prop` is 1: the technique extrapolates nothing.
+    PropagationTooShort,
+    /// Equation (8) leaves no integer bit for the velocity.
+    VelocityVanishes {
+        /// Integer bits that the equation gives.
+        integer_bits: i32,
+    },
+    /// Equation (9) leaves no integer bit for the acceleration.
+    AccelerationVanishes {
+        /// Integer bits that the equation gives.
+        integer_bits: i32,
+    },
+    /// A field would be wider than the arithmetic allows.
+    FieldTooWide {
+        /// Bits asked for.
+        bits: u32,
+        /// Bits possible.
+        most: u32,
+    },
+    /// More bits were shaved off than there are.
+    ShavedAway,
+    /// The velocity has fewer fraction bits than the acceleration, so that adding them would throw bits away.
+    VelocityCoarserThanAcceleration {
+        /// Fraction bits of the velocity.
+        velocity: u32,
+        /// Fraction bits of the acceleration.
+        acceleration: u32,
+    },
+    /// The depth field has fewer bits than the display has depth bins.
+    DepthTooCoarse {
+        /// Bits of the depth field.
+        bits: u32,
+        /// Bits of the number of bins.
+        needed: u32,
+    },
+    /// A galpixel would need more words than the engine carries.
+    RecordTooLong {
+        /// Bits a galpixel.
+        bits: u32,
+        /// Bits possible.
+        most: u32,
+    },
+    /// The layout has an acceleration and no velocity, or a depth motion and no depth.
+    LaneWithoutItsBase,
+}
+
+impl fmt::Display for BudgetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Zero => {
+                f.write_str("extent, recog and prop must all be at least 1: give each of them a positive number")
+            }
+            Self::PropagationTooShort => {
+                f.write_str("prop = 1 extrapolates nothing: give a propagation time of 2 frames or more")
+            }
+            Self::VelocityVanishes { integer_bits } => write!(
+                f,
+                "equation (8) gives {integer_bits} integer bits for the velocity: raise the extent or lower recog"
+            ),
+            Self::AccelerationVanishes { integer_bits } => write!(
+                f,
+                "equation (9) gives {integer_bits} integer bits for the acceleration: raise the extent, lower recog, or \
+                 choose a layout without acceleration"
+            ),
+            Self::FieldTooWide { bits, most } => write!(
+                f,
+                "a field of {bits} bits is more than the {most} that one word's arithmetic holds: lower the extent or prop, \
+                 raise recog, or shave bits off"
+            ),
+            Self::ShavedAway => f.write_str("more bits are shaved off than the field has: shave fewer"),
+            Self::VelocityCoarserThanAcceleration { velocity, acceleration } => write!(
+                f,
+                "the velocity has {velocity} fraction bits and the acceleration {acceleration}: shave the acceleration at \
+                 least as much as the velocity"
+            ),
+            Self::DepthTooCoarse { bits, needed } => write!(
+                f,
+                "a depth field of {bits} bits cannot hold 2^{needed} depth bins: use more depth bits or a smaller extent in z"
+            ),
+            Self::RecordTooLong { bits, most } => write!(
+                f,
+                "a galpixel of {bits} bits is more than the {most} that the engine carries: leave lanes out or shave bits off"
+            ),
+            Self::LaneWithoutItsBase => f.write_str(
+                "acceleration needs velocity, and depth motion needs depth and velocity: add the missing lane",
+            ),
+        }
+    }
+}
+
+impl core::error::Error for BudgetError {}
+
+/// Why a map cannot be laid over the memory that was lent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum SetupError {
+    /// The memory lent is too short.
+    TooShort {
+        /// What the memory is for.
+        plane: &'static str,
+        /// Words needed.
+        need: usize,
+        /// Words lent.
+        have: usize,
+    },
+    /// The map, wings included, has no cell or more than can be addressed.
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// Two maps that work together have different grids.
+    GridsDiffer,
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TooShort { plane, need, have } => {
+                write!(f, "the {plane} needs {need} words and {have} were lent: lend a longer slice")
+            }
+            Self::Size { width, height } => write!(
+                f,
+                "a map of {width}x{height} cells cannot be laid out: both sides must be 1 to 32768, wings included, and \
+                 the cells at most 2^28"
+            ),
+            Self::GridsDiffer => f.write_str("the two maps have different grids: lay both over the same one"),
+        }
+    }
+}
+
+impl core::error::Error for SetupError {}

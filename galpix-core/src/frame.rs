@@ -1,0 +1,132 @@
+//! One frame: the stages in their order, and the swap.
+
+use crate::edge;
+use crate::error::SetupError;
+use crate::fill::{Rung, fill};
+use crate::galpixel::Budget;
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::rounding::Rounding;
+use crate::sweep::sweep;
+use crate::tally::Tally;
+
+/// What a frame is made with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Settings {
+    /// How positions are rounded.
+    pub rounding: Rounding,
+    /// What is put into holes.
+    pub rung: Rung,
+    /// The Laplacian beyond which a cell is on an edge, in units of the depth's last bit.
+    pub edge_threshold: u32,
+    /// Rounds of bullet filling, 1 to 16.
+    pub reach: u32,
+}
+
+impl Settings {
+    /// Low-discrepancy rounding, the richest rung, one round of bullet filling, and an edge threshold for depths of
+    /// `depth_bits` bits that are linear in inverse distance.
+    #[must_use]
+    pub const fn for_depth(depth_bits: u32) -> Self {
+        Self {
+            rounding: Rounding::LowDiscrepancy,
+            rung: Rung::Galdebris,
+            edge_threshold: edge::threshold_for_depth(depth_bits),
+            reach: 1,
+        }
+    }
+}
+
+/// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices.
+#[derive(Debug, Default)]
+pub struct Scratch<'s> {
+    /// Who won each cell: a word for each cell.
+    pub winners: &'s mut [u32],
+    /// The edge map: [`edge::words`] words.
+    pub edges: &'s mut [u32],
+}
+
+/// Two maps that take turns: the front one is shown while the back one is made from it.
+#[derive(Debug)]
+pub struct Controller<'p, L, B> {
+    front: Galpixmap<'p, L, B>,
+    back: Galpixmap<'p, L, B>,
+    scratch: Scratch<'p>,
+    frame: u32,
+}
+
+impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
+    /// Two maps over the same grid, and scratch memory for the rungs that will be used.
+    ///
+    /// *Errors:* grids that differ, or scratch memory that is neither empty nor long enough.
+    pub fn new(
+        front: Galpixmap<'p, L, B>,
+        back: Galpixmap<'p, L, B>,
+        scratch: Scratch<'p>,
+    ) -> Result<Self, SetupError> {
+        if front.grid() != back.grid() {
+            return Err(SetupError::GridsDiffer);
+        }
+        let check = |plane, have: usize, need: usize| {
+            if have == 0 || have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
+        };
+        check("winner map", scratch.winners.len(), front.grid().cells() as usize)?;
+        check("edge map", scratch.edges.len(), edge::words(front.grid()))?;
+        Ok(Self { front, back, scratch, frame: 0 })
+    }
+
+    /// Makes the next frame and shows it.
+    pub fn step(&mut self, settings: &Settings) -> Tally {
+        let tally = step(&self.front, &mut self.back, &mut self.scratch, settings, self.frame);
+        core::mem::swap(&mut self.front, &mut self.back);
+        self.frame = self.frame.wrapping_add(1);
+        tally
+    }
+
+    /// The map that is shown.
+    #[must_use]
+    pub const fn front(&self) -> &Galpixmap<'p, L, B> {
+        &self.front
+    }
+
+    /// The map that is shown, to write an update into.
+    pub const fn front_mut(&mut self) -> &mut Galpixmap<'p, L, B> {
+        &mut self.front
+    }
+
+    /// Frames made so far; wraps.
+    #[must_use]
+    pub const fn frame(&self) -> u32 {
+        self.frame
+    }
+
+    /// For each cell of the shown map, the cell of the map before that it came from; see [`crate::resolve::NOBODY`] and
+    /// [`crate::fill::FILLED`]. Empty if no winner map was lent, stale for rungs that do not need one.
+    #[must_use]
+    pub const fn winners(&self) -> &[u32] {
+        self.scratch.winners
+    }
+
+    /// The edge map of the map before; see [`edge::on_edge`].
+    #[must_use]
+    pub const fn edges(&self) -> &[u32] {
+        self.scratch.edges
+    }
+}
+
+/// Makes `back` the frame after `front`, whose frame counter is `frame`.
+pub fn step<L: Layout, B: Budget<L>>(
+    front: &Galpixmap<'_, L, B>,
+    back: &mut Galpixmap<'_, L, B>,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
+    frame: u32,
+) -> Tally {
+    let surfaces = settings.rung.tells_surfaces();
+    let edges = if surfaces { edge::mark(front, settings.edge_threshold, scratch.edges) } else { 0 };
+    let mut tally = sweep(front, back, scratch.winners, settings.rounding, frame);
+    tally.edges = edges;
+    fill(front, back, scratch.winners, scratch.edges, settings.rung, settings.reach, &mut tally);
+    tally
+}

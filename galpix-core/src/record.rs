@@ -1,0 +1,405 @@
+//! The stored form of a galpixel: which bits of which 32-bit word hold which field.
+//!
+//! Every field has exactly the width that its budget gives. The fields are packed into the fewest words that hold them:
+//! first-fit by falling width (ties in canonical order); if that wastes a word, all fields are laid end to end in
+//! canonical order instead, and a field may then straddle two words. Within a word fields stand in canonical order from
+//! the most significant bit down, so that class and depth of a first-fit word compare as one number.
+
+use crate::budget::{Bits, Component};
+use crate::error::BudgetError;
+use crate::layout::Lanes;
+
+/// The most words of a galpixel. A power of two.
+pub const MAX_WORDS: usize = 8;
+
+/// Fields of a galpixel, in canonical order.
+const CLASS: usize = 0;
+const DEPTH: usize = 1;
+const OFFSET: [usize; 2] = [2, 3];
+const VELOCITY: [usize; 3] = [4, 6, 8];
+const ACCELERATION: [usize; 3] = [5, 7, 9];
+const COLOUR: usize = 10;
+const TAG: usize = 11;
+const LUMINOSITY_RATE: usize = 12;
+const LUMINOSITY: usize = 13;
+const FIELDS: usize = 14;
+
+/// Where one field is stored. An absent field has width 0, reads 0 and ignores writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Field {
+    /// Bits of the field.
+    pub bits: u8,
+    /// The word of the upper part: the whole field, unless it straddles.
+    pub word: u8,
+    /// Lowest bit of the upper part in its word.
+    pub shift: u8,
+    /// Bits of the field that continue at the top of the next word; 0 unless it straddles.
+    pub spill: u8,
+}
+
+/// Words of `N` galpixels side by side: `block[word][lane]`.
+pub(crate) type Block<const N: usize> = [[u32; N]; MAX_WORDS];
+
+const fn low_mask(bits: u32) -> u32 {
+    if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
+}
+
+impl Field {
+    /// Whether the field is there at all.
+    #[inline(always)]
+    #[must_use]
+    pub const fn present(self) -> bool {
+        self.bits != 0
+    }
+
+    #[inline(always)]
+    const fn upper_bits(self) -> u32 {
+        (self.bits - self.spill) as u32
+    }
+
+    /// The field of each lane as an unsigned number.
+    #[inline(always)]
+    pub(crate) fn unsigned<const N: usize>(self, block: &Block<N>) -> [u32; N] {
+        let mut out = [0; N];
+        if self.bits == 0 {
+            return out;
+        }
+        let upper = &block[self.word as usize & (MAX_WORDS - 1)];
+        let (left, right) = (32 - self.upper_bits() - self.shift as u32, 32 - self.upper_bits());
+        for lane in 0..N {
+            out[lane] = (upper[lane] << left) >> right;
+        }
+        if self.spill != 0 {
+            let lower = &block[(self.word as usize + 1) & (MAX_WORDS - 1)];
+            for lane in 0..N {
+                out[lane] = out[lane] << self.spill | lower[lane] >> (32 - self.spill as u32);
+            }
+        }
+        out
+    }
+
+    /// The field of each lane as a two's complement number.
+    #[inline(always)]
+    pub(crate) fn signed<const N: usize>(self, block: &Block<N>) -> [i32; N] {
+        let mut out = [0; N];
+        if self.bits == 0 {
+            return out;
+        }
+        let upper = &block[self.word as usize & (MAX_WORDS - 1)];
+        let (left, right) = (32 - self.upper_bits() - self.shift as u32, 32 - self.upper_bits());
+        for lane in 0..N {
+            out[lane] = ((upper[lane] << left) as i32) >> right;
+        }
+        if self.spill != 0 {
+            let lower = &block[(self.word as usize + 1) & (MAX_WORDS - 1)];
+            for lane in 0..N {
+                out[lane] = out[lane] << self.spill | (lower[lane] >> (32 - self.spill as u32)) as i32;
+            }
+        }
+        out
+    }
+
+    /// Replaces the field of each lane by the low bits of `values`.
+    #[inline(always)]
+    pub(crate) fn set<const N: usize>(self, block: &mut Block<N>, values: &[u32; N]) {
+        if self.bits == 0 {
+            return;
+        }
+        let mask = low_mask(self.upper_bits()) << self.shift;
+        let upper = &mut block[self.word as usize & (MAX_WORDS - 1)];
+        for lane in 0..N {
+            upper[lane] = upper[lane] & !mask | (values[lane] >> self.spill) << self.shift & mask;
+        }
+        if self.spill != 0 {
+            let shift = 32 - self.spill as u32;
+            let lower = &mut block[(self.word as usize + 1) & (MAX_WORDS - 1)];
+            for lane in 0..N {
+                lower[lane] = lower[lane] & low_mask(shift) | values[lane] << shift;
+            }
+        }
+    }
+}
+
+/// The arithmetic of one component: how velocity and acceleration are brought to the position's unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Scale {
+    /// Bits by which an acceleration is coarser than a velocity.
+    pub acceleration_up: u32,
+    /// Bits dropped from `2v + a` to reach the position's unit, after the rounding threshold.
+    pub down: u32,
+    /// Bits gained instead, where the position is the finer one. One of `down` and `up` is 0.
+    pub up: u32,
+    /// Fraction bits of the position.
+    pub position_frac: u32,
+    /// Fraction bits of the velocity.
+    pub velocity_frac: u32,
+    /// Fraction bits of the acceleration.
+    pub acceleration_frac: u32,
+    /// Bits of the velocity.
+    pub velocity_bits: u32,
+}
+
+impl Scale {
+    const fn new(component: Component, position_frac: u32) -> Self {
+        let step_frac = component.velocity_frac + 1;
+        Self {
+            acceleration_up: component.velocity_frac.saturating_sub(component.acceleration_frac),
+            down: step_frac.saturating_sub(position_frac),
+            up: position_frac.saturating_sub(step_frac),
+            position_frac,
+            velocity_frac: component.velocity_frac,
+            acceleration_frac: component.acceleration_frac,
+            velocity_bits: component.velocity_bits(),
+        }
+    }
+}
+
+/// How a galpixel of a layout is stored under a budget.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Record {
+    fields: [Field; FIELDS],
+    words: u8,
+    bits: u16,
+    /// Arithmetic in x, y and depth.
+    pub scales: [Scale; 3],
+    /// Fraction bits of the luminosity.
+    pub luminosity_frac: u32,
+}
+
+macro_rules! field_getters {
+    ($($(#[$doc:meta])* $name:ident = $index:expr;)*) => {$(
+        $(#[$doc])*
+        #[inline(always)]
+        #[must_use]
+        pub const fn $name(&self) -> Field {
+            self.fields[$index]
+        }
+    )*};
+}
+
+impl Record {
+    /// Lays out the lanes of a layout with `colour_bits` of colour under a budget.
+    ///
+    /// *Errors:* lanes that lack their base, a depth field that cannot hold its bins, more than [`MAX_WORDS`] words.
+    pub const fn plan(bits: Bits, lanes: Lanes, colour_bits: u32) -> Result<Self, BudgetError> {
+        if (lanes.acceleration && !lanes.velocity) || (lanes.depth_motion && (lanes.depth_bits == 0 || !lanes.velocity))
+        {
+            return Err(BudgetError::LaneWithoutItsBase);
+        }
+        let depth_bits = lanes.depth_bits + if lanes.depth_motion { bits.z.position_frac } else { 0 };
+        if lanes.depth_motion && depth_bits < bits.depth_int {
+            return Err(BudgetError::DepthTooCoarse { bits: depth_bits, needed: bits.depth_int });
+        }
+        if depth_bits > 28 {
+            return Err(BudgetError::FieldTooWide { bits: depth_bits, most: 28 });
+        }
+        if colour_bits > 32 || lanes.tag_bits > 32 {
+            return Err(BudgetError::FieldTooWide { bits: lanes.tag_bits, most: 32 });
+        }
+        let z_frac = depth_bits.saturating_sub(bits.depth_int);
+        let scales = [
+            Scale::new(bits.x, bits.x.position_frac),
+            Scale::new(bits.y, bits.y.position_frac),
+            Scale::new(bits.z, z_frac),
+        ];
+        if lanes.depth_motion {
+            let widest = bits.z.velocity_bits() + scales[2].up;
+            let widest = if bits.z.acceleration_bits() + scales[2].acceleration_up + scales[2].up > widest {
+                bits.z.acceleration_bits() + scales[2].acceleration_up + scales[2].up
+            } else {
+                widest
+            };
+            if widest > crate::budget::WIDEST_FIELD {
+                return Err(BudgetError::FieldTooWide { bits: widest, most: crate::budget::WIDEST_FIELD });
+            }
+        }
+        if lanes.acceleration
+            && !(bits.x.has_acceleration()
+                && bits.y.has_acceleration()
+                && (!lanes.depth_motion || bits.z.has_acceleration()))
+        {
+            return Err(BudgetError::AccelerationVanishes { integer_bits: 0 });
+        }
+
+        let mut widths = [0u32; FIELDS];
+        widths[CLASS] = 2;
+        widths[DEPTH] = depth_bits;
+        widths[COLOUR] = colour_bits;
+        widths[TAG] = lanes.tag_bits;
+        if lanes.velocity {
+            let components = [bits.x, bits.y, bits.z];
+            let mut i = 0;
+            while i < if lanes.depth_motion { 3 } else { 2 } {
+                widths[VELOCITY[i]] = components[i].velocity_bits();
+                if lanes.acceleration {
+                    widths[ACCELERATION[i]] = components[i].acceleration_bits();
+                }
+                if i < 2 {
+                    widths[OFFSET[i]] = components[i].position_frac;
+                }
+                i += 1;
+            }
+        }
+        if lanes.luminosity {
+            widths[LUMINOSITY_RATE] = bits.luminosity_int + bits.luminosity_frac;
+            widths[LUMINOSITY] = bits.luminosity_frac;
+        }
+        match pack(widths) {
+            Ok((fields, words, total)) => {
+                Ok(Self { fields, words, bits: total, scales, luminosity_frac: bits.luminosity_frac })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// For constants: the record, or a compile error with the reason.
+    #[must_use]
+    pub const fn must(record: Result<Self, BudgetError>) -> Self {
+        match record {
+            Ok(record) => record,
+            Err(BudgetError::DepthTooCoarse { .. }) => {
+                panic!("layout: the depth field cannot hold its bins: use more depth bits")
+            }
+            Err(BudgetError::RecordTooLong { .. }) => {
+                panic!("layout: a galpixel of more than 256 bits: leave lanes out")
+            }
+            Err(BudgetError::LaneWithoutItsBase) => {
+                panic!("layout: acceleration needs velocity, depth motion needs depth")
+            }
+            Err(_) => panic!("layout: this budget does not fit these lanes"),
+        }
+    }
+
+    /// Words of a stored galpixel.
+    #[inline(always)]
+    #[must_use]
+    pub const fn words(&self) -> usize {
+        self.words as usize
+    }
+
+    /// Bytes of a stored galpixel.
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        self.words as usize * 4
+    }
+
+    /// Bits in use of a stored galpixel.
+    #[must_use]
+    pub const fn bits(&self) -> u32 {
+        self.bits as u32
+    }
+
+    field_getters! {
+        /// Empty, galpixel, debris or just unobscured.
+        class = CLASS;
+        /// The z-buffer with its fraction: smaller is nearer.
+        depth = DEPTH;
+        /// Fraction of the position along the row, from the cell's centre.
+        offset_x = OFFSET[0];
+        /// Fraction of the position along the column, from the cell's centre.
+        offset_y = OFFSET[1];
+        /// The colour word.
+        colour = COLOUR;
+        /// The object's tag.
+        tag = TAG;
+        /// Steps of luminosity a frame.
+        luminosity_rate = LUMINOSITY_RATE;
+        /// Fraction of the luminosity.
+        luminosity = LUMINOSITY;
+    }
+
+    /// The velocity in x (0), y (1) or depth (2).
+    #[inline(always)]
+    #[must_use]
+    pub const fn velocity(&self, component: usize) -> Field {
+        self.fields[VELOCITY[component]]
+    }
+
+    /// The acceleration in x (0), y (1) or depth (2).
+    #[inline(always)]
+    #[must_use]
+    pub const fn acceleration(&self, component: usize) -> Field {
+        self.fields[ACCELERATION[component]]
+    }
+}
+
+const fn pack(widths: [u32; FIELDS]) -> Result<([Field; FIELDS], u8, u16), BudgetError> {
+    let mut total = 0;
+    let mut i = 0;
+    while i < FIELDS {
+        if widths[i] > 32 {
+            return Err(BudgetError::FieldTooWide { bits: widths[i], most: 32 });
+        }
+        total += widths[i];
+        i += 1;
+    }
+    let fewest = total.div_ceil(32);
+    if fewest as usize > MAX_WORDS {
+        return Err(BudgetError::RecordTooLong { bits: total, most: 32 * MAX_WORDS as u32 });
+    }
+    let fields = match first_fit(widths, fewest) {
+        Some(fields) => fields,
+        None => end_to_end(widths),
+    };
+    Ok((fields, fewest as u8, total as u16))
+}
+
+/// First-fit by falling width into `words` words, if that succeeds.
+const fn first_fit(widths: [u32; FIELDS], words: u32) -> Option<[Field; FIELDS]> {
+    let mut fields = [Field { bits: 0, word: 0, shift: 0, spill: 0 }; FIELDS];
+    let mut used = [0u32; MAX_WORDS];
+    let mut width = 32;
+    while width > 0 {
+        let mut i = 0;
+        while i < FIELDS {
+            if widths[i] == width {
+                let mut word = 0;
+                while word < words as usize && used[word] + width > 32 {
+                    word += 1;
+                }
+                if word == words as usize {
+                    return None;
+                }
+                used[word] += width;
+                fields[i] = Field { bits: width as u8, word: word as u8, shift: 0, spill: 0 };
+            }
+            i += 1;
+        }
+        width -= 1;
+    }
+    let mut top = [32u8; MAX_WORDS];
+    let mut i = 0;
+    while i < FIELDS {
+        if fields[i].bits > 0 {
+            let word = fields[i].word as usize;
+            top[word] -= fields[i].bits;
+            fields[i].shift = top[word];
+        }
+        i += 1;
+    }
+    Some(fields)
+}
+
+/// All fields one after the other, from the top of the first word.
+const fn end_to_end(widths: [u32; FIELDS]) -> [Field; FIELDS] {
+    let mut fields = [Field { bits: 0, word: 0, shift: 0, spill: 0 }; FIELDS];
+    let mut start = 0;
+    let mut i = 0;
+    while i < FIELDS {
+        if widths[i] > 0 {
+            let (word, room) = (start / 32, 32 - start % 32);
+            let bits = widths[i];
+            fields[i] = if bits <= room {
+                Field { bits: bits as u8, word: word as u8, shift: (room - bits) as u8, spill: 0 }
+            } else {
+                Field { bits: bits as u8, word: word as u8, shift: 0, spill: (bits - room) as u8 }
+            };
+            start += bits;
+        }
+        i += 1;
+    }
+    fields
+}

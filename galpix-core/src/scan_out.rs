@@ -1,0 +1,161 @@
+//! Stage 5: rows of colour for a display. No arithmetic.
+//!
+//! [`row`] is the native path, for scanline engines and DMA: colour words of one row, in order. With the feature
+//! `embedded-graphics`, a [`View`] of the whole display or of a band of its rows is an `ImageDrawable`, and any
+//! `DrawTarget` is a display; it receives contiguous rows, never single pixels.
+
+use crate::galpixel::Budget;
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+
+/// The colour words of row `y` of the display (wings left out), from left to right; nothing below the display.
+pub fn row<'m, L: Layout, B: Budget<L>>(
+    map: &'m Galpixmap<'_, L, B>,
+    y: u32,
+) -> impl ExactSizeIterator<Item = u32> + 'm {
+    span(map, y, 0, map.grid().display_width())
+}
+
+/// The colour words of `width` columns from `x` on of row `y` of the display; fewer where the display ends.
+fn span<'m, L: Layout, B: Budget<L>>(
+    map: &'m Galpixmap<'_, L, B>,
+    y: u32,
+    x: u32,
+    width: u32,
+) -> impl ExactSizeIterator<Item = u32> + 'm {
+    let grid = map.grid();
+    let field = map.record().colour();
+    let left = x.min(grid.display_width());
+    let width = width.min(grid.display_width() - left) as usize;
+    let start = if y < grid.display_height() { grid.row((y + grid.wings().top) as i32) } else { None };
+    let plane = |word: usize| match (start, map.planes().get(word)) {
+        (Some(start), Some(plane)) => {
+            plane.get((start + grid.wings().left + left) as usize..).and_then(|rest| rest.get(..width)).unwrap_or(&[])
+        }
+        _ => &[],
+    };
+    let upper = plane(field.word as usize);
+    let lower = if field.spill > 0 { plane(field.word as usize + 1) } else { upper };
+    upper.iter().zip(lower).map(move |(&upper, &lower)| {
+        let mut block: crate::record::Block<1> = Default::default();
+        if let Some(word) = block.get_mut(field.word as usize + 1) {
+            *word = [lower];
+        }
+        if let Some(word) = block.get_mut(field.word as usize) {
+            *word = [upper];
+        }
+        field.unsigned(&block)[0]
+    })
+}
+
+#[cfg(feature = "embedded-graphics")]
+pub use panel::{PanelColour, View};
+
+#[cfg(feature = "embedded-graphics")]
+mod panel {
+    use embedded_graphics_core::draw_target::DrawTarget;
+    use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
+    use embedded_graphics_core::image::ImageDrawable;
+    use embedded_graphics_core::pixelcolor::{self, PixelColor, raw::RawU4, raw::RawU8, raw::RawU16, raw::RawU24};
+    use embedded_graphics_core::primitives::Rectangle;
+
+    use crate::colour::{Colour, Gray4, Gray8, Rgb565, Rgb888};
+    use crate::galpixel::Budget;
+    use crate::galpixmap::Galpixmap;
+    use crate::layout::Layout;
+
+    /// A colour format that a panel understands.
+    pub trait PanelColour: Colour {
+        /// The panel's pixel.
+        type Pixel: PixelColor;
+        /// The pixel of a colour word.
+        fn pixel(colour: u32) -> Self::Pixel;
+    }
+
+    impl PanelColour for Rgb888 {
+        type Pixel = pixelcolor::Rgb888;
+        #[inline(always)]
+        fn pixel(colour: u32) -> Self::Pixel {
+            RawU24::new(colour).into()
+        }
+    }
+
+    impl PanelColour for Rgb565 {
+        type Pixel = pixelcolor::Rgb565;
+        #[inline(always)]
+        fn pixel(colour: u32) -> Self::Pixel {
+            RawU16::new(colour as u16).into()
+        }
+    }
+
+    impl PanelColour for Gray8 {
+        type Pixel = pixelcolor::Gray8;
+        #[inline(always)]
+        fn pixel(colour: u32) -> Self::Pixel {
+            RawU8::new(colour as u8).into()
+        }
+    }
+
+    impl PanelColour for Gray4 {
+        type Pixel = pixelcolor::Gray4;
+        #[inline(always)]
+        fn pixel(colour: u32) -> Self::Pixel {
+            RawU4::new(colour as u8).into()
+        }
+    }
+
+    use embedded_graphics_core::pixelcolor::raw::RawData as _;
+
+    /// The display's part of a map, or a band of its rows.
+    #[derive(Debug)]
+    pub struct View<'m, 'p, L, B> {
+        map: &'m Galpixmap<'p, L, B>,
+        top: u32,
+        rows: u32,
+    }
+
+    impl<'m, 'p, L: Layout, B: Budget<L>> View<'m, 'p, L, B> {
+        /// The whole display.
+        #[must_use]
+        pub fn new(map: &'m Galpixmap<'p, L, B>) -> Self {
+            Self { map, top: 0, rows: map.grid().display_height() }
+        }
+
+        /// At most `rows` rows of the display from row `top` on; fewer at its end. Draw it at `(0, top)`.
+        #[must_use]
+        pub fn band(map: &'m Galpixmap<'p, L, B>, top: u32, rows: u32) -> Self {
+            let top = top.min(map.grid().display_height());
+            Self { map, top, rows: rows.min(map.grid().display_height() - top) }
+        }
+    }
+
+    impl<L: Layout, B: Budget<L>> OriginDimensions for View<'_, '_, L, B> {
+        fn size(&self) -> Size {
+            Size::new(self.map.grid().display_width(), self.rows)
+        }
+    }
+
+    impl<L: Layout<Colour: PanelColour>, B: Budget<L>> ImageDrawable for View<'_, '_, L, B> {
+        type Color = <L::Colour as PanelColour>::Pixel;
+
+        fn draw<D: DrawTarget<Color = Self::Color>>(&self, target: &mut D) -> Result<(), D::Error> {
+            self.draw_sub_image(target, &Rectangle::new(Point::zero(), self.size()))
+        }
+
+        fn draw_sub_image<D: DrawTarget<Color = Self::Color>>(
+            &self,
+            target: &mut D,
+            area: &Rectangle,
+        ) -> Result<(), D::Error> {
+            let inside = area.intersection(&Rectangle::new(Point::zero(), self.size()));
+            let (left, width) = (inside.top_left.x.max(0) as u32, inside.size.width);
+            let first = self.top + inside.top_left.y.max(0) as u32;
+            let colours = (first..first + inside.size.height)
+                .flat_map(|y| super::span(self.map, y, left, width))
+                .map(L::Colour::pixel);
+            // Drawn from the target's origin on, as the trait asks.
+            let place = Rectangle::new(inside.top_left - area.top_left, inside.size);
+            target.fill_contiguous(&place, colours)
+        }
+    }
+}
