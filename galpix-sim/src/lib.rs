@@ -2,3 +2,5 @@
 
 pub mod picture;
 pub mod update;
+pub mod certificate;
+pub mod engine;
