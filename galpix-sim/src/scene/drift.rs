@@ -41,8 +41,8 @@ fn poster(u: f64, v: f64) -> Rgb {
     let rings = mix(hex(0xe0543c), hex(0xf2b24a), stripes(length(u, v + 13.0), 10.0, 5.0));
     let target = mix(sheet, rings, dot(u, v + 13.0, 30.0));
     let heading = small_print(u + 48.0, v + 43.0, 16.0).max(small_print(u - 48.0, v + 43.0, 16.0));
-    let lettered = mix(target, hex(0x24485a), sign(u, v - 31.0, 3.4));
-    mix(lettered, hex(0x24485a), small_print(u, v - 46.0, 58.0).max(heading))
+    let lettered = mix(target, hex(0x24485a), sign(u, v - 30.0, 3.4));
+    mix(lettered, hex(0x24485a), small_print(u, v - 46.5, 58.0).max(heading))
 }
 
 /// Marks two to four pixels wide, like a line of small print.

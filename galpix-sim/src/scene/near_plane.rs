@@ -41,14 +41,14 @@ impl Scene for NearPlane {
                 origin: [0.0, 0.0, END],
                 u: X,
                 v: Y,
-                shape: |u, v| u.abs() <= HALF_WIDTH && CEILING <= v && v <= FLOOR,
+                shape: |u, v| u.abs() <= HALF_WIDTH && (CEILING..=FLOOR).contains(&v),
                 paint: end,
             },
             &Plane { lens: LENS, origin: [0.0, FLOOR, 0.0], u: X, v: Z, shape: |_, z| z <= END, paint: floor },
             &Plane { lens: LENS, origin: [0.0, CEILING, 0.0], u: X, v: Z, shape: |_, z| z <= END, paint: ceiling },
             &Plane { lens: LENS, origin: [-HALF_WIDTH, 0.0, 0.0], u: Z, v: Y, shape: in_corridor, paint: left },
             &Plane { lens: LENS, origin: [HALF_WIDTH, 0.0, 0.0], u: Z, v: Y, shape: in_corridor, paint: right },
-            &Column { lens: LENS, axis: [0.62, 2.75], radius: 0.11, reach: [CEILING, FLOOR], paint: post },
+            &Column { lens: LENS, axis: [0.62, 2.45], radius: 0.11, reach: [CEILING, FLOOR], paint: post },
             &Column { lens: LENS, axis: [-0.85, 4.4], radius: 0.13, reach: [CEILING, FLOOR], paint: post },
         ];
         SURFACES
@@ -66,12 +66,12 @@ fn in_corridor(z: f64, y: f64) -> bool {
 }
 
 /// The lowest row of the wings sees the floor at distance 1.06, just behind the near plane; in 16 frames the nearer post
-/// comes from 2.6 to 1.4.
+/// comes from 2.3 to 1.4.
 const LENS: &Lens = &Lens {
     focal: 120.0,
     centre: [95.5, 71.5],
     near: 1.0,
-    eye: [Path::new(0.0, 0.008, 0.0), Path::still(0.0), Path::new(0.0, 0.07, 0.001)],
+    eye: [Path::new(0.0, 0.008, 0.0), Path::still(0.0), Path::new(0.0, 0.05, 0.001)],
 };
 
 /// How much of a pattern is left at world distance `z`: it fades before it gets finer than pixels. The fading belongs to

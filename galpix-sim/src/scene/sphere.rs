@@ -15,11 +15,11 @@ impl Scene for Sphere {
     }
 
     fn about(&self) -> &'static str {
-        "a beach ball comes near and grows to twice its size: bullet holes, and perspective beyond second order"
+        "a beach ball comes near and grows by two thirds: bullet holes, and perspective beyond second order"
     }
 
     fn frames(&self) -> u32 {
-        24
+        16
     }
 
     fn second_order(&self) -> bool {
@@ -46,7 +46,7 @@ impl Scene for Sphere {
             },
             &Globe {
                 lens: LENS,
-                centre: [Path::new(-1.35, 0.042, 0.0), Path::new(-0.1, 0.005, 0.0), Path::new(6.2, -0.14, 0.0)],
+                centre: [Path::new(-1.15, 0.045, 0.0), Path::new(-0.05, 0.005, 0.0), Path::new(5.3, -0.13, 0.0)],
                 radius: 1.0,
                 paint: beach_ball,
             },

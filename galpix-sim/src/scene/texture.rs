@@ -143,10 +143,11 @@ pub fn sign(u: f64, v: f64, unit: f64) -> f64 {
         let bit = bits.is_some_and(|bits| bits << column.rem_euclid(6) & 0b1_0000 != 0);
         f64::from(u8::from(bit))
     };
-    // Between the middles of four units the ink is interpolated and cut at one half, which rounds the corners.
+    // Between the middles of four units the ink is interpolated; cut below one half, strokes are bold, their corners round,
+    // and the steps of a diagonal hold together.
     let ((i, u), (j, v)) = (cell(u / unit + 17.0, 1.0), cell(v / unit + 3.0, 1.0));
     let row = |j| inked(i, j) * (1.0 - u) + inked(i + 1, j) * u;
-    cover((row(j) * (1.0 - v) + row(j + 1) * v - 0.5) * unit)
+    cover((row(j) * (1.0 - v) + row(j + 1) * v - 0.38) * unit)
 }
 
 #[cfg(test)]
