@@ -1,6 +1,7 @@
 //! The host simulator: scenes with exact truth, importers, the engine on a lent memory, metrics and reports.
 
 pub mod picture;
+pub mod scene;
 pub mod update;
 pub mod certificate;
 pub mod engine;
