@@ -1,4 +1,5 @@
 //! The host simulator: scenes with exact truth, importers, the engine on a lent memory, metrics and reports.
 
+pub mod metric;
 pub mod picture;
 pub mod update;
