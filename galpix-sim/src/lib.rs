@@ -1,5 +1,7 @@
 //! The host simulator: scenes with exact truth, importers, the engine on a lent memory, metrics and reports.
 
+pub mod film;
+pub mod metric;
 pub mod picture;
 pub mod scene;
 pub mod update;

@@ -1,0 +1,238 @@
+//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP.
+//!
+//! All three take the shown picture first, the truth second, and an optional mask of the cells that count (row-major, of
+//! the pictures' size; everything counts without it). They answer `None`, never panic, where there is nothing sound to
+//! say: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no pixel, none that counts.
+//!
+//! | metric | 8-bit sRGB becomes | range, best |
+//! | --- | --- | --- |
+//! | [`psnr_db`] | code values, R, G and B alike | 0 ..= 100 dB, 100 |
+//! | [`ssim`] | luma | about -1 ..= 1, 1 |
+//! | [`flip`] | contrast-filtered opponent colours | 0 ..= 1, **0** |
+
+use crate::picture::Picture;
+use image::{GrayImage, RgbImage, imageops};
+use image_compare::Algorithm;
+use nv_flip::FlipImageRgb8;
+
+/// What [`psnr_db`] says of identical pictures, in decibels, so that JSON and plots stay finite.
+///
+/// One channel of one pixel wrong by one step reaches this figure only in a picture of more than 51 000 pixels; larger
+/// pictures with less error than that are capped too.
+pub const PSNR_CAP_DB: f64 = 100.0;
+
+/// The pixels per degree of visual angle at which [`flip`] looks: FLIP's own default, a 0.7 m wide display of 3840
+/// pixels seen from 0.7 m, about 67.
+pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
+
+/// Peak signal-to-noise ratio in decibels, `10 log10(255² / MSE)`, the mean squared error taken over all three channels of
+/// the counted cells, in 8-bit code values. At most [`PSNR_CAP_DB`].
+#[must_use]
+pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
+    comparable(shown, truth, counted)?;
+    let mut squares = 0_u64;
+    let mut cells = 0_u64;
+    for (cell, (a, b)) in shown.pixels.iter().zip(&truth.pixels).enumerate() {
+        if counts(counted, cell) {
+            squares += a.iter().zip(b).map(|(&a, &b)| u64::from(a.abs_diff(b)).pow(2)).sum::<u64>();
+            cells += 1;
+        }
+    }
+    if cells == 0 {
+        return None;
+    }
+    let mean = squares as f64 / (3 * cells) as f64;
+    Some((10.0 * (255.0_f64.powi(2) / mean).log10()).min(PSNR_CAP_DB))
+}
+
+/// Mean structural similarity of luma (Rec. 709 weights on the sRGB code values): 1 for identical pictures.
+///
+/// Through `image-compare`: windows of 8x8 that do not overlap, without Gaussian weights, those at the right and lower
+/// border cut to what is left (so a picture smaller than one window is one window), averaged by area. Its variances are
+/// *sums* over the window, not means, so that the stabilising constant of the contrast term weighs 64 times less than in
+/// Wang et al. 2004: nearly flat areas are judged more strictly. Compare figures with figures of the same function.
+///
+/// Cells that do not count are set to the truth in both pictures; their windows therefore score higher, which flatters a
+/// picture with a large mask.
+#[must_use]
+pub fn ssim(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
+    comparable(shown, truth, counted)?;
+    let shown = luma(&with_truth_where_not_counted(shown, truth, counted))?;
+    let similarity = image_compare::gray_similarity_structure(&Algorithm::MSSIMSimple, &shown, &luma(truth)?).ok()?;
+    Some(similarity.score)
+}
+
+/// Mean FLIP error (Andersson et al. 2020) over the counted cells, at [`PIXELS_PER_DEGREE`]: 0 for identical pictures.
+///
+/// What is drawn is how visible the difference is when one flips between the two pictures. Cells that do not count are
+/// set to the truth, so that they cannot bleed into their neighbours through FLIP's filters, and are left out of the mean.
+#[must_use]
+pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
+    comparable(shown, truth, counted)?;
+    let (width, height) = (u32::try_from(truth.width).ok()?, u32::try_from(truth.height).ok()?);
+    width.checked_mul(height)?.checked_mul(3)?; // nv-flip multiplies in 32 bits
+    let shown = with_truth_where_not_counted(shown, truth, counted);
+    let map = nv_flip::flip(
+        FlipImageRgb8::with_data(width, height, truth.bytes()),
+        FlipImageRgb8::with_data(width, height, shown.bytes()),
+        PIXELS_PER_DEGREE,
+    );
+    let (mut sum, mut cells) = (0.0, 0_u64);
+    for (cell, error) in map.to_vec().into_iter().enumerate() {
+        if counts(counted, cell) {
+            sum += f64::from(error);
+            cells += 1;
+        }
+    }
+    Some(sum / cells as f64)
+}
+
+/// `Some` if the two pictures and the mask have one size, hold what their size says, and at least one cell counts.
+fn comparable(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<()> {
+    let cells = truth.width.checked_mul(truth.height)?;
+    let whole = (shown.width, shown.height) == (truth.width, truth.height)
+        && shown.pixels.len() == cells
+        && truth.pixels.len() == cells
+        && counted.is_none_or(|mask| mask.len() == cells);
+    let some_count = counted.map_or(cells > 0, |mask| mask.contains(&true));
+    (whole && some_count).then_some(())
+}
+
+fn counts(counted: Option<&[bool]>, cell: usize) -> bool {
+    counted.is_none_or(|mask| mask[cell])
+}
+
+fn with_truth_where_not_counted(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Picture {
+    let mut merged = shown.clone();
+    for (cell, (pixel, &true_pixel)) in merged.pixels.iter_mut().zip(&truth.pixels).enumerate() {
+        if !counts(counted, cell) {
+            *pixel = true_pixel;
+        }
+    }
+    merged
+}
+
+fn luma(picture: &Picture) -> Option<GrayImage> {
+    let (width, height) = (u32::try_from(picture.width).ok()?, u32::try_from(picture.height).ok()?);
+    Some(imageops::grayscale(&RgbImage::from_raw(width, height, picture.bytes().to_vec())?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(value: Option<f64>, expected: f64, tolerance: f64) {
+        let value = value.expect("a figure");
+        assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    }
+
+    /// Black, with one pixel's red at `red`.
+    fn spot(width: usize, height: usize, red: u8) -> Picture {
+        let mut picture = Picture::filled(width, height, [0; 3]);
+        picture.pixels[0][0] = red;
+        picture
+    }
+
+    #[test]
+    fn psnr_of_hand_computed_pictures() {
+        let black = Picture::filled(2, 2, [0; 3]);
+        near(psnr_db(&black, &Picture::filled(2, 2, [255; 3]), None), 0.0, 1e-12);
+        // every code value off by one: 20 log10(255)
+        near(psnr_db(&black, &Picture::filled(2, 2, [1; 3]), None), 48.130_803_608_679_1, 1e-9);
+        // one channel of four pixels off by 12: MSE = 144 / 12 = 12, so 10 log10(65025 / 12)
+        near(psnr_db(&spot(2, 2, 12), &black, None), 37.338_991_147_993_9, 1e-9);
+        assert_eq!(psnr_db(&black, &black, None), Some(PSNR_CAP_DB));
+    }
+
+    #[test]
+    fn psnr_counts_only_the_mask() {
+        let (shown, truth) = (spot(2, 2, 12), Picture::filled(2, 2, [0; 3]));
+        // the wrong pixel alone: MSE = 144 / 3 = 48
+        near(psnr_db(&shown, &truth, Some(&[true, false, false, false])), 31.318_391_234_714_3, 1e-9);
+        assert_eq!(psnr_db(&shown, &truth, Some(&[false, true, true, true])), Some(PSNR_CAP_DB));
+        assert_eq!(psnr_db(&shown, &truth, Some(&[false; 4])), None);
+    }
+
+    #[test]
+    fn ssim_of_flat_pictures_is_the_luminance_term() {
+        let grey = |level| Picture::filled(8, 8, [level; 3]);
+        // no variance: (2 * 100 * 110 + C1) / (100² + 110² + C1), C1 = (0.01 * 255)² = 6.5025
+        near(ssim(&grey(100), &grey(110), None), 22_006.5025 / 22_106.5025, 1e-9);
+        near(ssim(&grey(100), &grey(100), None), 1.0, 1e-12);
+    }
+
+    #[test]
+    fn ssim_of_a_window_cut_to_two_cells() {
+        let pair = |left, right| Picture { width: 2, height: 1, pixels: vec![[left; 3], [right; 3]] };
+        // mirror images: means 50, variances 5000 each, covariance -5000; C2 = (0.03 * 255)² = 58.5225
+        near(ssim(&pair(0, 100), &pair(100, 0), None), (-10_000.0 + 58.5225) / (10_000.0 + 58.5225), 1e-9);
+    }
+
+    #[test]
+    fn ssim_takes_luma() {
+        // Rec. 709: pure blue 255 has luma 18 (722 * 255 / 10000, cut), pure green 182
+        let flat = |colour| Picture::filled(3, 3, colour);
+        let (a, b) = (18.0_f64, 182.0_f64);
+        let expected = (2.0 * a * b + 6.5025) / (a * a + b * b + 6.5025);
+        near(ssim(&flat([0, 0, 255]), &flat([0, 255, 0]), None), expected, 1e-9);
+    }
+
+    #[test]
+    fn masked_cells_take_the_truth() {
+        let (shown, truth) = (spot(9, 9, 255), Picture::filled(9, 9, [0; 3]));
+        let mut mask = vec![true; 81];
+        mask[0] = false;
+        near(ssim(&shown, &truth, Some(&mask)), 1.0, 1e-12);
+        near(flip(&shown, &truth, Some(&mask)), 0.0, 1e-7);
+        assert!(ssim(&shown, &truth, None) < Some(0.99));
+        assert!(flip(&shown, &truth, None) > Some(0.001));
+    }
+
+    #[test]
+    fn flip_is_zero_for_equals_and_near_one_from_black_to_white() {
+        let (black, white) = (Picture::filled(16, 16, [0; 3]), Picture::filled(16, 16, [255; 3]));
+        near(flip(&black, &black, None), 0.0, 1e-7);
+        // Flat: only the colour term. HyAB of black and white is 100, of green and blue (FLIP's maximum, with its Hunt
+        // adjustment) 203.3; to the power of 0.7 these are 25.12 and 41.3. The first exceeds 0.4 * 41.3 = 16.5, hence
+        // 0.95 + 0.05 * (25.12 - 16.5) / (41.3 - 16.5) = 0.9674; with no edges the feature term leaves it as it is.
+        near(flip(&black, &white, None), 0.9674, 2e-4);
+        assert!(flip(&Picture::filled(16, 16, [10; 3]), &black, None) < flip(&white, &black, None));
+    }
+
+    #[test]
+    fn flip_counts_the_mean_over_the_mask_alone() {
+        let (black, white) = (Picture::filled(4, 4, [0; 3]), Picture::filled(4, 4, [255; 3]));
+        let mut one = vec![false; 16];
+        one[5] = true;
+        // fifteen cells agree; averaged over all sixteen the figure would be below 1/16
+        assert!(flip(&white, &black, Some(&one)) > Some(0.1));
+    }
+
+    #[test]
+    fn tiny_pictures_have_figures() {
+        for (width, height) in [(1, 1), (1, 7), (2, 3), (7, 1), (8, 8), (9, 1)] {
+            let (a, b) = (Picture::filled(width, height, [10; 3]), Picture::filled(width, height, [20; 3]));
+            for figure in [psnr_db(&a, &b, None), ssim(&a, &b, None), flip(&a, &b, None)] {
+                assert!(figure.is_some_and(f64::is_finite), "{width}x{height}: {figure:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_to_compare_is_none_and_never_a_panic() {
+        let black = Picture::filled(4, 2, [0; 3]);
+        let torn = Picture { width: 4, height: 2, pixels: vec![[0; 3]; 7] };
+        let huge = Picture { width: usize::MAX, height: 2, pixels: Vec::new() };
+        let empty = Picture::filled(0, 5, [0; 3]);
+        type Metric = fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>;
+        for metric in [psnr_db as Metric, ssim, flip] {
+            assert_eq!(metric(&black, &Picture::filled(2, 4, [0; 3]), None), None);
+            assert_eq!(metric(&torn, &black, None), None);
+            assert_eq!(metric(&black, &torn, None), None);
+            assert_eq!(metric(&huge, &huge, None), None);
+            assert_eq!(metric(&empty, &empty, None), None);
+            assert_eq!(metric(&black, &black, Some(&[true; 7])), None);
+            assert_eq!(metric(&black, &black, Some(&[false; 8])), None);
+        }
+    }
+}
