@@ -1,5 +1,58 @@
+//! Galpixmaps in fixed point: pixels that carry their own motion.
+//!
+//! A renderer delivers a few pictures a second; a display shows a hundred. Between two pictures every pixel of a
+//! *galpixmap* goes on moving by itself: it carries position, velocity and acceleration (a *galpixel*, J. P. Costella,
+//! "Motion Extrapolation at the Pixel Level", 1993), and each frame moves all of them with additions and shifts only.
+//!
+//! One frame, stage by stage and file by file:
+//!
+//! 1. [`propagate`]: `r += v + a/2`, `v += a`, the best-fitting cell
+//! 2. [`resolve`]: who gets a cell that several want; [`sweep`] does both stages in one pass
+//! 3. [`edge`]: which cells are on the edge of a surface
+//! 4. [`fill`]: what is put where nothing arrived
+//! 5. [`scan_out`]: rows of colour for a display
+//!
+//! [`frame`] is their order. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
+//! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
+//! them with units.
+//!
+//! Nothing here allocates, floats, panics or wraps once a map is set up: errors at the border, counts inside.
+//!
+//! ```
+//! use fixed::types::I32F32;
+//! use galpix_core::budget::{Bits, Demand};
+//! use galpix_core::frame::{Controller, Scratch, Settings};
+//! use galpix_core::galpixel::{Galpixel, Profile, Static};
+//! use galpix_core::galpixmap::Galpixmap;
+//! use galpix_core::grid::{Grid, Wings};
+//! use galpix_core::layout::Velocity565;
+//!
+//! /// A panel of 64 pixels, recognition in 8 frames, an update every 16.
+//! struct Panel;
+//! impl Profile for Panel {
+//!     const BITS: Bits = Bits::must(Bits::derive_without_acceleration(Demand { extent: 64, recog: 8, prop: 16 }));
+//! }
+//!
+//! let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
+//! let grid = Grid::new(64, 4, Wings::NONE, &mut rows)?;
+//! let mut front = Galpixmap::<Velocity565, _>::new(grid, Static::<Panel>::new(), &mut front)?;
+//! let back = Galpixmap::new(grid, Static::<Panel>::new(), &mut back)?;
+//!
+//! // A white galpixel that moves right by three quarters of a cell a frame.
+//! let velocity = [I32F32::lit("0.75"), I32F32::ZERO, I32F32::ZERO];
+//! front.store(10, 2, &Galpixel { colour: [255; 3], velocity, ..Galpixel::default() });
+//!
+//! let mut controller = Controller::new(front, back, Scratch::default())?;
+//! let tally = controller.step(&Settings::for_depth(16));
+//! assert_eq!((tally.moved, tally.lost), (1, 0));
+//! assert_eq!(controller.front().rgb888(11, 2), Some([255; 3]));
+//! # Ok::<(), galpix_core::error::SetupError>(())
+//! ```
+
 #![no_std]
 #![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
 pub mod budget;
 pub mod colour;
 pub mod edge;

@@ -104,8 +104,6 @@ mod panel {
         }
     }
 
-    use embedded_graphics_core::pixelcolor::raw::RawData as _;
-
     /// The display's part of a map, or a band of its rows.
     #[derive(Debug)]
     pub struct View<'m, 'p, L, B> {
