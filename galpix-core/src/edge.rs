@@ -17,7 +17,9 @@ use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::grid::Grid;
 use crate::layout::Layout;
-use crate::sweep::RUN;
+
+/// Neighbours that are looked at once.
+const RUN: u32 = 32;
 
 /// Equation (17).
 #[inline(always)]
@@ -62,69 +64,57 @@ pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32
     edges.fill(0);
     let grid = *front.grid();
     let threshold = threshold.min(i32::MAX as u32) as i32;
-    let mut marker = Marker { front, threshold, edges, count: 0 };
+    let mut count = 0;
     let mut up = 0;
     let mut rows = grid.starts().iter().copied().peekable();
     while let Some(row) = rows.next() {
         let down = rows.peek().copied().unwrap_or(row);
         let mut x = 0;
         while x < grid.width() {
-            // The first and the last column lack a neighbour; between them, runs.
-            if x > 0 && x + (RUN as u32) < grid.width() {
-                marker.cells::<RUN>([row + x, row + x - 1, row + x + 1, up + x, down + x]);
-                x += RUN as u32;
-            } else {
-                let (left, right) = (x.saturating_sub(1), (x + 1).min(grid.width() - 1));
-                marker.cells::<1>([row + x, row + left, row + right, up + x, down + x]);
-                x += 1;
-            }
+            // The first and the last column lack a neighbour; between them, runs of cells.
+            let last = grid.width() - 1;
+            let cells = if x == 0 || x == last { 1 } else { (last - x).min(RUN) };
+            let (left, right) = (x.saturating_sub(1), (x + 1).min(last));
+            let flags = flags(front, threshold, cells, [row + x, row + left, row + right, up + x, down + x]);
+            set(edges, row + x, flags);
+            count += flags.count_ones();
+            x += cells;
         }
         up = row;
     }
-    marker.count
+    count
 }
 
-struct Marker<'m, 'p, L, B> {
-    front: &'m Galpixmap<'p, L, B>,
-    threshold: i32,
-    edges: &'m mut [u32],
-    count: u32,
+/// The flags of up to [`RUN`] cells, the first in the lowest bit. `places`: the first cell, and its neighbours to the
+/// left, right, above and below.
+#[inline(always)]
+fn flags<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: i32, cells: u32, places: [u32; 5]) -> u32 {
+    let mut keys = [[0; RUN as usize]; 5];
+    for (keys, place) in keys.iter_mut().zip(places) {
+        for (to, key) in keys.iter_mut().zip(front.keys(place as usize..(place + cells) as usize)) {
+            *to = key;
+        }
+    }
+    let [z0, left, right, up, down] = &keys;
+    let mut flags = 0;
+    for lane in 0..RUN as usize {
+        // Class 0 is a galpixel, and the class stands above the depth.
+        let others = front.class_of(z0[lane] | left[lane] | right[lane] | up[lane] | down[lane]);
+        let [z0, left, right, up, down] = [z0, left, right, up, down].map(|keys| keys[lane] as i32);
+        let source = laplacian(z0, left, right, up, down);
+        flags |= u32::from(others != 0 || source > threshold || source < -threshold) << lane;
+    }
+    if cells < RUN { flags & ((1 << cells) - 1) } else { flags }
 }
 
-impl<L: Layout, B: Budget<L>> Marker<'_, '_, L, B> {
-    /// Marks `N` cells from `centre` on.
-    #[inline(always)]
-    fn cells<const N: usize>(&mut self, [centre, left, right, up, down]: [u32; 5]) {
-        let front = self.front;
-        let depth_bits = front.record().depth().bits;
-        let (Some(z0), Some(left), Some(right), Some(up), Some(down)) = (
-            front.keys::<N>(centre),
-            front.keys::<N>(left),
-            front.keys::<N>(right),
-            front.keys::<N>(up),
-            front.keys::<N>(down),
-        ) else {
-            return;
-        };
-        let mut flags = [0; N];
-        for lane in 0..N {
-            // Class 0 is a galpixel, and the class stands above the depth.
-            let others = (z0[lane] | left[lane] | right[lane] | up[lane] | down[lane]) >> depth_bits;
-            let source =
-                laplacian(z0[lane] as i32, left[lane] as i32, right[lane] as i32, up[lane] as i32, down[lane] as i32);
-            flags[lane] = (others != 0 || source > self.threshold || source < -self.threshold) as u32;
-        }
-        let mut bits = 0u64;
-        for (lane, flag) in flags.into_iter().enumerate() {
-            bits |= u64::from(flag) << lane;
-            self.count += flag;
-        }
-        let (word, bits) = ((centre >> 5) as usize, bits << (centre & 31));
-        if let Some(word) = self.edges.get_mut(word) {
-            *word |= bits as u32;
-        }
-        if let Some(word) = self.edges.get_mut(word + 1) {
-            *word |= (bits >> 32) as u32;
-        }
+/// Sets the bits of `flags` from `cell` on.
+#[inline(always)]
+fn set(edges: &mut [u32], cell: u32, flags: u32) {
+    let (word, flags) = ((cell >> 5) as usize, u64::from(flags) << (cell & 31));
+    if let Some(word) = edges.get_mut(word) {
+        *word |= flags as u32;
+    }
+    if let Some(word) = edges.get_mut(word + 1) {
+        *word |= (flags >> 32) as u32;
     }
 }

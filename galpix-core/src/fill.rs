@@ -15,10 +15,12 @@ use crate::edge::on_edge;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::record::{Block, Record};
+use crate::record::{Record, Words};
 use crate::resolve::NOBODY;
-use crate::sweep::RUN;
 use crate::tally::Tally;
+
+/// Neighbours that are looked at once.
+const RUN: u32 = 32;
 
 /// In a winner map after the fill: this cell holds a bullet fill of round `winner - FILLED`.
 pub const FILLED: u32 = 1 << 31;
@@ -100,82 +102,78 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
         for (y, &row) in grid.starts().iter().enumerate() {
             let mut x = 0;
             while x < grid.width() {
-                let run = if x + RUN as u32 <= grid.width() { self.back.keys::<RUN>(row + x) } else { None };
-                if let Some(keys) = run {
-                    let depth_bits = self.back.record().depth().bits;
-                    let mut holes = 0;
-                    for key in keys {
-                        holes |= (key >> depth_bits == Class::Empty as u32) as u32;
-                    }
-                    if holes == 0 {
-                        x += RUN as u32;
-                        continue;
+                let run = (grid.width() - x).min(RUN);
+                let cells = (row + x) as usize..(row + x + run) as usize;
+                // Most runs have no hole: look at all of a run before looking at any of its cells.
+                let empty = |key| self.back.class_of(key) == Class::Empty as u32;
+                if self.back.keys(cells).fold(false, |holes, key| holes | empty(key)) {
+                    for x in x..x + run {
+                        if self.back.class(row + x) == Class::Empty {
+                            self.hole(row + x, x as i32, y as i32, round, last);
+                        }
                     }
                 }
-                let end = (x + if run.is_some() { RUN as u32 } else { 1 }).min(grid.width());
-                while x < end {
-                    if self.back.class(row + x) == Class::Empty {
-                        self.hole(row + x, x as i32, y as i32, round, last);
-                    }
-                    x += 1;
-                }
+                x += run;
             }
         }
     }
 
     fn hole(&mut self, cell: u32, x: i32, y: i32, round: u32, last: bool) {
         if self.rung.tells_surfaces()
-            && let Some(block) = self.bullet(x, y, round)
+            && let Some(words) = self.bullet(x, y, round)
         {
-            self.back.put(cell, &block);
+            self.back.put(cell, &words);
             if let Some(winner) = self.winners.get_mut(cell as usize) {
                 *winner = FILLED + round;
             }
             self.tally.holes += 1;
             self.tally.bullets += 1;
         } else if last {
+            let words = self.unobscured(cell);
+            self.back.put(cell, &words);
+            if let Some(winner) = self.winners.get_mut(cell as usize) {
+                *winner = NOBODY;
+            }
             self.tally.holes += 1;
-            let block = self.unobscured(cell);
-            self.back.put(cell, &block);
         }
     }
 
     /// What the rung puts into a cell that is no bullet hole.
-    fn unobscured(&mut self, cell: u32) -> Block<1> {
+    fn unobscured(&mut self, cell: u32) -> Words {
         let record = self.front.record();
-        let before = self.front.block::<1>(cell).unwrap_or_default();
-        let mut block: Block<1> = Default::default();
-        let known = record.class().unsigned(&before)[0] != Class::Empty as u32;
+        let before = self.front.words_at(cell).unwrap_or_default();
+        let mut words: Words = Default::default();
+        let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.rung == Rung::Galdebris && known {
-            block = before;
-            record.class().set(&mut block, &[Class::JustUnobscured as u32]);
+            words = before;
+            record.class().set(&mut words, Class::JustUnobscured as u32);
             self.tally.galdebris += 1;
-            return block;
+            return words;
         }
         if self.rung != Rung::None {
-            record.colour().set(&mut block, &record.colour().unsigned(&before));
+            record.colour().set(&mut words, record.colour().unsigned(&before));
         }
         if self.rung >= Rung::Debris && known {
             let class = if self.rung == Rung::Debris { Class::Debris } else { Class::JustUnobscured };
-            record.class().set(&mut block, &[class as u32]);
-            record.depth().set(&mut block, &[u32::MAX]);
+            record.class().set(&mut words, class as u32);
+            record.depth().set(&mut words, u32::MAX);
             self.tally.debris += 1;
         } else {
-            record.class().set(&mut block, &[Class::Empty as u32]);
+            record.class().set(&mut words, Class::Empty as u32);
             self.tally.empty += 1;
         }
-        block
+        words
     }
 
     /// The mean of the neighbours that lie inside a surface, if there are any.
-    fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Block<1>> {
+    fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
         let sides = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
         let corners = [(x - 1, y - 1), (x + 1, y + 1), (x + 1, y - 1), (x - 1, y + 1)];
         self.mean(sides, round).or_else(|| self.mean(corners, round))
     }
 
     /// The mean of two pairs of neighbours that face each other: 0 and 1, 2 and 3.
-    fn mean(&self, places: [(i32, i32); 4], round: u32) -> Option<Block<1>> {
+    fn mean(&self, places: [(i32, i32); 4], round: u32) -> Option<Words> {
         let record = self.back.record();
         let inside = places.map(|(x, y)| self.inside(x, y, round));
         match inside {
@@ -189,41 +187,41 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     }
 
     /// The galpixel at a place, if it came from inside of a surface, or is a bullet fill of an earlier round.
-    fn inside(&self, x: i32, y: i32, round: u32) -> Option<Block<1>> {
+    fn inside(&self, x: i32, y: i32, round: u32) -> Option<Words> {
         let cell = self.back.grid().cell(x, y)?;
         let winner = *self.winners.get(cell as usize)?;
         let inside = if winner >= FILLED { winner < FILLED + round } else { !on_edge(self.edges, winner) };
-        let block = self.back.block::<1>(cell)?;
-        let galpixel = self.back.record().class().unsigned(&block)[0] == Class::Galpixel as u32;
-        (inside && winner != NOBODY && galpixel).then_some(block)
+        let words = self.back.words_at(cell)?;
+        let galpixel = self.back.record().class().unsigned(&words) == Class::Galpixel as u32;
+        (inside && winner != NOBODY && galpixel).then_some(words)
     }
 }
 
 /// The mean of two galpixels, field by field, halves upwards; tag and fraction of the luminosity from the first.
-fn mean2<L: Layout>(record: &Record, blocks: [Block<1>; 2]) -> Block<1> {
-    let mut mean = blocks[0];
+fn mean2<L: Layout>(record: &Record, wordss: [Words; 2]) -> Words {
+    let mut mean = wordss[0];
     for field in moving_fields(record) {
-        let sum = field.signed(&blocks[0])[0] + field.signed(&blocks[1])[0];
-        field.set(&mut mean, &[((sum + 1) >> 1) as u32]);
+        let sum = field.signed(&wordss[0]) + field.signed(&wordss[1]);
+        field.set(&mut mean, ((sum + 1) >> 1) as u32);
     }
-    let [a, b] = blocks.map(|block| record.depth().unsigned(&block)[0]);
-    record.depth().set(&mut mean, &[(a + b + 1) >> 1]);
-    let colours = blocks.map(|block| record.colour().unsigned(&block)[0]);
-    record.colour().set(&mut mean, &[L::Colour::mean2(colours)]);
+    let [a, b] = wordss.map(|words| record.depth().unsigned(&words));
+    record.depth().set(&mut mean, (a + b + 1) >> 1);
+    let colours = wordss.map(|words| record.colour().unsigned(&words));
+    record.colour().set(&mut mean, L::Colour::mean2(colours));
     mean
 }
 
 /// The mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity from the first.
-fn mean4<L: Layout>(record: &Record, blocks: [Block<1>; 4]) -> Block<1> {
-    let mut mean = blocks[0];
+fn mean4<L: Layout>(record: &Record, wordss: [Words; 4]) -> Words {
+    let mut mean = wordss[0];
     for field in moving_fields(record) {
-        let sum = blocks.iter().fold(2, |sum, block| sum + field.signed(block)[0]);
-        field.set(&mut mean, &[(sum >> 2) as u32]);
+        let sum = wordss.iter().fold(2, |sum, words| sum + field.signed(words));
+        field.set(&mut mean, (sum >> 2) as u32);
     }
-    let sum = blocks.iter().fold(2, |sum, block| sum + record.depth().unsigned(block)[0]);
-    record.depth().set(&mut mean, &[sum >> 2]);
-    let colours = blocks.map(|block| record.colour().unsigned(&block)[0]);
-    record.colour().set(&mut mean, &[L::Colour::mean4(colours)]);
+    let sum = wordss.iter().fold(2, |sum, words| sum + record.depth().unsigned(words));
+    record.depth().set(&mut mean, sum >> 2);
+    let colours = wordss.map(|words| record.colour().unsigned(&words));
+    record.colour().set(&mut mean, L::Colour::mean4(colours));
     mean
 }
 

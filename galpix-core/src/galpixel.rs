@@ -6,7 +6,7 @@ use crate::budget::Bits;
 use crate::colour::Colour;
 use crate::error::BudgetError;
 use crate::layout::Layout;
-use crate::record::{Block, Field, Record};
+use crate::record::{Field, Record, Words};
 
 use core::marker::PhantomData;
 
@@ -211,21 +211,21 @@ impl Galpixel {
     ///
     /// *Rounding:* to nearest, halves upwards. Offsets and depth are clamped to the cell and to the range uncounted.
     #[must_use]
-    pub(crate) fn stored<C: Colour>(&self, record: &Record) -> (Block<1>, u32) {
-        let mut block: Block<1> = Default::default();
+    pub(crate) fn stored<C: Colour>(&self, record: &Record) -> (Words, u32) {
+        let mut words: Words = Default::default();
         let mut saturated = 0;
-        record.class().set(&mut block, &[self.class as u32]);
-        record.colour().set(&mut block, &[C::from_rgb888(self.colour)]);
-        record.tag().set(&mut block, &[self.tag]);
+        record.class().set(&mut words, self.class as u32);
+        record.colour().set(&mut words, C::from_rgb888(self.colour));
+        record.tag().set(&mut words, self.tag);
         if record.depth().present() {
             let (raw, _) = quantised(self.depth, record.depth().bits as i32, 0, unsigned_top(record.depth()));
-            record.depth().set(&mut block, &[raw as u32]);
+            record.depth().set(&mut words, raw as u32);
         }
         for (component, field) in [record.offset_x(), record.offset_y()].into_iter().enumerate() {
             if field.present() {
                 let (low, high) = signed_range(field);
                 let (raw, _) = quantised(self.offset[component], field.bits as i32, low, high);
-                field.set(&mut block, &[raw as u32]);
+                field.set(&mut words, raw as u32);
             }
         }
         for component in 0..3 {
@@ -237,7 +237,7 @@ impl Galpixel {
                 if field.present() {
                     let (low, high) = signed_range(field);
                     let (raw, clamped) = quantised(value, frac, low, high);
-                    field.set(&mut block, &[raw as u32]);
+                    field.set(&mut words, raw as u32);
                     saturated += clamped as u32;
                 }
             }
@@ -245,27 +245,26 @@ impl Galpixel {
         if record.luminosity_rate().present() {
             let (low, high) = signed_range(record.luminosity_rate());
             let (raw, clamped) = quantised(self.luminosity_rate, Self::luminosity_frac::<C>(record), low, high);
-            record.luminosity_rate().set(&mut block, &[raw as u32]);
+            record.luminosity_rate().set(&mut words, raw as u32);
             saturated += clamped as u32;
         }
-        (block, saturated)
+        (words, saturated)
     }
 
     /// The galpixel that these words hold.
     #[must_use]
-    pub(crate) fn read<C: Colour>(record: &Record, block: &Block<1>) -> Self {
-        let [colour] = record.colour().unsigned(block);
-        let [depth] = record.depth().unsigned(block);
-        let [class] = record.class().unsigned(block);
-        let [tag] = record.tag().unsigned(block);
-        let [rate] = record.luminosity_rate().signed(block);
+    pub(crate) fn read<C: Colour>(record: &Record, words: &Words) -> Self {
+        let colour = record.colour().unsigned(words);
+        let depth = record.depth().unsigned(words);
+        let class = record.class().unsigned(words);
+        let tag = record.tag().unsigned(words);
+        let rate = record.luminosity_rate().signed(words);
         let offset =
-            [record.offset_x(), record.offset_y()].map(|field| widened(field.signed(block)[0], field.bits as i32));
+            [record.offset_x(), record.offset_y()].map(|field| widened(field.signed(words), field.bits as i32));
         let velocity = [0, 1, 2]
-            .map(|component| widened(record.velocity(component).signed(block)[0], Self::fracs(record, component).0));
-        let acceleration = [0, 1, 2].map(|component| {
-            widened(record.acceleration(component).signed(block)[0], Self::fracs(record, component).1)
-        });
+            .map(|component| widened(record.velocity(component).signed(words), Self::fracs(record, component).0));
+        let acceleration = [0, 1, 2]
+            .map(|component| widened(record.acceleration(component).signed(words), Self::fracs(record, component).1));
         Self {
             class: Class::from_bits(class),
             colour: C::to_rgb888(colour),

@@ -4,13 +4,14 @@
 //! neighbours lie side by side: `memory[k * cells + cell]`. What is in a map survives the map; lend the memory again to go on.
 
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use crate::colour::Colour;
 use crate::error::SetupError;
 use crate::galpixel::{Budget, Class, Galpixel};
 use crate::grid::Grid;
 use crate::layout::Layout;
-use crate::record::{Block, MAX_WORDS, Record};
+use crate::record::{MAX_WORDS, Record, Words};
 
 /// A map of galpixels of layout `L` under budget `B`, over borrowed memory.
 #[derive(Debug)]
@@ -68,7 +69,7 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
     pub fn clear(&mut self) {
         let (empty, _) =
             Galpixel { class: Class::Empty, ..Galpixel::default() }.stored::<L::Colour>(self.budget.record());
-        for (plane, [word]) in self.planes.iter_mut().zip(empty) {
+        for (plane, word) in self.planes.iter_mut().zip(empty) {
             plane.fill(word);
         }
     }
@@ -112,89 +113,81 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
     /// Stores a galpixel; returns how many of its fields had to be clamped, or `None` outside of the map.
     pub fn store(&mut self, x: i32, y: i32, galpixel: &Galpixel) -> Option<u32> {
         let cell = self.grid.cell(x, y)?;
-        let (block, saturated) = galpixel.stored::<L::Colour>(self.budget.record());
-        self.put(cell, &block);
+        let (words, saturated) = galpixel.stored::<L::Colour>(self.budget.record());
+        self.put(cell, &words);
         Some(saturated)
     }
 
     /// Reads the galpixel at column `x`, row `y` of the map (wings included).
     #[must_use]
     pub fn load(&self, x: i32, y: i32) -> Option<Galpixel> {
-        let block = self.block::<1>(self.grid.cell(x, y)?)?;
-        Some(Galpixel::read::<L::Colour>(self.record(), &block))
+        let words = self.words_at(self.grid.cell(x, y)?)?;
+        Some(Galpixel::read::<L::Colour>(self.record(), &words))
     }
 
     /// What a cell holds; empty outside of the map.
     #[inline(always)]
     #[must_use]
     pub fn class(&self, cell: u32) -> Class {
-        match self.block::<1>(cell) {
-            Some(block) => Class::from_bits(self.record().class().unsigned(&block)[0]),
+        let (word, _) = self.record().class().words();
+        match self.planes[word].get(cell as usize) {
+            Some(&word) => Class::from_bits(self.record().class().extract().unsigned(word, word)),
             None => Class::Empty,
         }
     }
 
-    /// The words of `N` neighbours from `cell` on, or nothing if they are not all in the map.
+    /// The words of a cell, or nothing outside of the map.
     #[inline(always)]
-    pub(crate) fn block<const N: usize>(&self, cell: u32) -> Option<Block<N>> {
-        let mut block = [[0; N]; MAX_WORDS];
-        for (words, plane) in block.iter_mut().zip(&self.planes).take(self.budget.record().words()) {
-            *words = *plane.get(cell as usize..)?.first_chunk::<N>()?;
+    pub(crate) fn words_at(&self, cell: u32) -> Option<Words> {
+        let mut words = [0; MAX_WORDS];
+        for (word, plane) in words.iter_mut().zip(&self.planes).take(self.budget.record().words()) {
+            *word = *plane.get(cell as usize)?;
         }
-        Some(block)
+        Some(words)
     }
 
-    /// Class and depth of `N` cells as one number a cell, the smaller the nearer; reads no other words.
+    /// Writes the words of a cell; nothing outside of the map.
     #[inline(always)]
-    pub(crate) fn keys<const N: usize>(&self, cell: u32) -> Option<[u32; N]> {
+    pub(crate) fn put(&mut self, cell: u32, words: &Words) {
+        for (plane, word) in self.planes.iter_mut().zip(words).take(self.budget.record().words()) {
+            if let Some(to) = plane.get_mut(cell as usize) {
+                *to = *word;
+            }
+        }
+    }
+
+    /// Class and depth of a cell as one number, the smaller the nearer, or nothing outside of the map.
+    #[inline(always)]
+    pub(crate) fn key_at(&self, cell: u32) -> Option<u32> {
+        self.keys(cell as usize..cell as usize + 1).next()
+    }
+
+    /// Class and depth of some cells as one number each, the smaller the nearer; nothing if they are not all in the map.
+    #[inline(always)]
+    pub(crate) fn keys(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
         let record = self.record();
-        let mut block = [[0; N]; MAX_WORDS];
-        for field in [record.class(), record.depth()] {
-            for word in [field.word, field.word + (field.spill > 0) as u8] {
-                let word = word as usize & (MAX_WORDS - 1);
-                block[word] = *self.planes[word].get(cell as usize..)?.first_chunk::<N>()?;
-            }
-        }
-        Some(crate::resolve::keys(record, &block))
+        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
+        let (class_word, _) = record.class().words();
+        let (depth_word, spill_word) = record.depth().words();
+        let (class, depth, depth_bits) = (record.class().extract(), record.depth().extract(), record.depth().bits);
+        plane(class_word)
+            .iter()
+            .zip(plane(depth_word))
+            .zip(plane(spill_word))
+            .map(move |((&top, &word), &spill)| class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill))
     }
 
-    /// Writes the words of one cell; nothing outside of the map.
+    /// The class that a key holds.
     #[inline(always)]
-    pub(crate) fn put(&mut self, cell: u32, block: &Block<1>) {
-        self.put_lane(cell, block, 0);
-    }
-
-    /// Writes one lane of a block to one cell; nothing outside of the map.
-    #[inline(always)]
-    pub(crate) fn put_lane<const N: usize>(&mut self, cell: u32, block: &Block<N>, lane: usize) {
-        let words = self.budget.record().words();
-        for (plane, lanes) in self.planes.iter_mut().zip(block).take(words) {
-            if let (Some(word), Some(value)) = (plane.get_mut(cell as usize), lanes.get(lane)) {
-                *word = *value;
-            }
-        }
-    }
-
-    /// Writes `N` neighbours from `cell` on; nothing if they are not all in the map.
-    #[inline(always)]
-    pub(crate) fn put_block<const N: usize>(&mut self, cell: u32, block: &Block<N>) {
-        let words = self.budget.record().words();
-        for (plane, lanes) in self.planes.iter_mut().zip(block).take(words) {
-            if let Some(target) = plane.get_mut(cell as usize..).and_then(|rest| rest.first_chunk_mut::<N>()) {
-                *target = *lanes;
-            }
-        }
+    pub(crate) fn class_of(&self, key: u32) -> u32 {
+        key >> self.record().depth().bits
     }
 
     /// The colour that the display shows at a cell, as a stored colour word; 0 outside of the map.
     #[inline(always)]
     #[must_use]
     pub fn colour(&self, cell: u32) -> u32 {
-        let field = self.record().colour();
-        match self.block::<1>(cell) {
-            Some(block) => field.unsigned(&block)[0],
-            None => 0,
-        }
+        self.words_at(cell).map_or(0, |words| self.record().colour().unsigned(&words))
     }
 
     /// The colour at column `x`, row `y` as 8-bit red, green and blue.

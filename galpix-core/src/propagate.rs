@@ -10,7 +10,7 @@
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::record::{Block, MAX_WORDS, Record, Scale};
+use crate::record::{MAX_WORDS, Record, Scale, Words};
 use crate::rounding::Rounding;
 
 /// Equation (6): the position one frame later, in units of the position's last bit.
@@ -53,125 +53,90 @@ pub(crate) fn thresholds(record: &Record, rounding: Rounding, frame: u32) -> [i3
     [rounding.threshold(frame, x.down), rounding.threshold(frame, y.down), rounding.threshold(frame, z.down)]
 }
 
-/// `N` galpixels after a step.
-pub(crate) struct Moved<const N: usize> {
-    /// The words as they will be stored.
-    pub block: Block<N>,
+/// What a step did beside changing the words.
+pub(crate) struct Step {
     /// Cells moved along the row.
-    pub dx: [i32; N],
+    pub dx: i32,
     /// Cells moved along the column.
-    pub dy: [i32; N],
+    pub dy: i32,
     /// The bits by which velocity x, y, depth and its velocity left their fields; 0 where they did not.
-    pub strayed: [[i32; N]; 4],
+    pub strayed: [i32; 4],
 }
 
-impl<const N: usize> Moved<N> {
-    /// Fields of a lane that were clamped.
+impl Step {
+    /// Fields that were clamped.
     #[inline(always)]
-    pub fn saturated(&self, lane: usize) -> u32 {
-        self.strayed.iter().filter(|strayed| strayed[lane] != 0).count() as u32
+    pub fn saturated(&self) -> u32 {
+        self.strayed.iter().map(|&strayed| (strayed != 0) as u32).sum()
     }
 }
 
-/// Moves `N` galpixels forward by one frame. The kernel of the engine: knows no image; empty cells pass through.
+/// Moves one galpixel forward by one frame. The kernel of the engine: knows no image, and does not branch, so that a loop
+/// over neighbours becomes vector code.
 #[inline(always)]
-pub(crate) fn advance<L: Layout, const N: usize>(
-    record: &Record,
-    thresholds: &[i32; 3],
-    mut block: Block<N>,
-) -> Moved<N> {
-    let (mut dx, mut dy, mut strayed) = ([0; N], [0; N], [[0; N]; 4]);
+pub(crate) fn advance<L: Layout>(record: &Record, thresholds: &[i32; 3], words: &mut Words) -> Step {
+    let mut step = Step { dx: 0, dy: 0, strayed: [0; 4] };
     if L::LANES.velocity {
-        let (offset, cells) = step_plane(record, thresholds[0], 0, &mut block, &mut strayed);
-        dx = cells;
-        record.offset_x().set(&mut block, &offset);
-        let (offset, cells) = step_plane(record, thresholds[1], 1, &mut block, &mut strayed);
-        dy = cells;
-        record.offset_y().set(&mut block, &offset);
+        (step.dx, step.strayed[0]) = step_plane::<L>(record, thresholds[0], 0, words);
+        (step.dy, step.strayed[1]) = step_plane::<L>(record, thresholds[1], 1, words);
     }
     if L::LANES.depth_motion {
-        step_depth(record, thresholds[2], &mut block, &mut strayed);
+        (step.strayed[2], step.strayed[3]) = step_depth::<L>(record, thresholds[2], words);
     }
     if L::LANES.luminosity {
-        step_luminosity::<L, N>(record, &mut block);
+        step_luminosity::<L>(record, words);
     }
     // What was just unobscured is debris from now on.
-    let mut class = record.class().unsigned(&block);
-    for class in &mut class {
-        *class += (*class == Class::JustUnobscured as u32) as u32;
-    }
-    record.class().set(&mut block, &class);
-    Moved { block, dx, dy, strayed }
+    let class = record.class().unsigned(words);
+    record.class().set(words, class + (class == Class::JustUnobscured as u32) as u32);
+    step
 }
 
-/// A step in x (0) or y (1): the new offsets and the cells moved.
+/// A step in x (0) or y (1): the cells moved, and by which bits the velocity strayed.
 #[inline(always)]
-fn step_plane<const N: usize>(
-    record: &Record,
-    threshold: i32,
-    component: usize,
-    block: &mut Block<N>,
-    strayed: &mut [[i32; N]; 4],
-) -> ([u32; N], [i32; N]) {
+fn step_plane<L: Layout>(record: &Record, threshold: i32, component: usize, words: &mut Words) -> (i32, i32) {
     let scale = &record.scales[component];
-    let offset = if component == 0 { record.offset_x() } else { record.offset_y() }.signed(block);
-    let (v, a) = (record.velocity(component).signed(block), record.acceleration(component).signed(block));
-    let (mut offsets, mut cells, mut velocities) = ([0; N], [0; N], [0; N]);
-    for lane in 0..N {
-        let position = step_position(scale, threshold, offset[lane], v[lane], a[lane]);
-        let velocity = step_velocity(scale, v[lane], a[lane]);
-        let clamped = clamp_velocity(scale, velocity);
-        strayed[component][lane] = velocity ^ clamped;
-        // The field keeps the low bits, which are those of `position - (cells << position_frac)`.
-        offsets[lane] = position as u32;
-        cells[lane] = snap(scale, position);
-        velocities[lane] = clamped as u32;
-    }
-    if record.acceleration(component).present() {
-        record.velocity(component).set(block, &velocities);
-    }
-    (offsets, cells)
+    let offset = if component == 0 { record.offset_x() } else { record.offset_y() };
+    let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
+    let position = step_position(scale, threshold, offset.signed(words), v, a);
+    // The field keeps the low bits, which are those of `position - (cells << position_frac)`.
+    offset.set(words, position as u32);
+    (snap(scale, position), set_velocity::<L>(record, component, words, v, a))
 }
 
-/// A step in depth, which saturates at the near and at the far end.
+/// A step in depth, which saturates at the near and at the far end: by which bits depth and velocity strayed.
 #[inline(always)]
-fn step_depth<const N: usize>(record: &Record, threshold: i32, block: &mut Block<N>, strayed: &mut [[i32; N]; 4]) {
-    let scale = &record.scales[2];
+fn step_depth<L: Layout>(record: &Record, threshold: i32, words: &mut Words) -> (i32, i32) {
     let far = ((1u32 << record.depth().bits) - 1) as i32;
-    let depth = record.depth().unsigned(block);
-    let (v, a) = (record.velocity(2).signed(block), record.acceleration(2).signed(block));
-    let (mut depths, mut velocities) = ([0; N], [0; N]);
-    for lane in 0..N {
-        let position = step_position(scale, threshold, depth[lane] as i32, v[lane], a[lane]);
-        let within = position.min(far).max(0);
-        let velocity = step_velocity(scale, v[lane], a[lane]);
-        let clamped = clamp_velocity(scale, velocity);
-        strayed[2][lane] = position ^ within;
-        strayed[3][lane] = velocity ^ clamped;
-        depths[lane] = within as u32;
-        velocities[lane] = clamped as u32;
+    let (v, a) = (record.velocity(2).signed(words), record.acceleration(2).signed(words));
+    let depth = record.depth().unsigned(words) as i32;
+    let position = step_position(&record.scales[2], threshold, depth, v, a);
+    let within = position.min(far).max(0);
+    record.depth().set(words, within as u32);
+    (position ^ within, set_velocity::<L>(record, 2, words, v, a))
+}
+
+/// The velocity of a component after a step: by which bits it strayed.
+#[inline(always)]
+fn set_velocity<L: Layout>(record: &Record, component: usize, words: &mut Words, v: i32, a: i32) -> i32 {
+    if !L::LANES.acceleration {
+        return 0;
     }
-    record.depth().set(block, &depths);
-    if record.acceleration(2).present() {
-        record.velocity(2).set(block, &velocities);
-    }
+    let scale = &record.scales[component];
+    let velocity = step_velocity(scale, v, a);
+    let clamped = clamp_velocity(scale, velocity);
+    record.velocity(component).set(words, clamped as u32);
+    velocity ^ clamped
 }
 
 /// Shading inertia: the luminosity moves by its rate, and whole steps go into the colour's channels, clamped to them.
 #[inline(always)]
-fn step_luminosity<L: Layout, const N: usize>(record: &Record, block: &mut Block<N>) {
+fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
     use crate::colour::Colour;
-    let rate = record.luminosity_rate().signed(block);
-    let fraction = record.luminosity().unsigned(block);
-    let mut colour = record.colour().unsigned(block);
-    let mut fractions = [0; N];
-    for lane in 0..N {
-        let level = fraction[lane] as i32 + rate[lane];
-        fractions[lane] = level as u32;
-        colour[lane] = L::Colour::brightened(colour[lane], level >> record.luminosity_frac);
-    }
-    record.luminosity().set(block, &fractions);
-    record.colour().set(block, &colour);
+    let level = record.luminosity().unsigned(words) as i32 + record.luminosity_rate().signed(words);
+    record.luminosity().set(words, level as u32);
+    let colour = record.colour().unsigned(words);
+    record.colour().set(words, L::Colour::brightened(colour, level >> record.luminosity_frac));
 }
 
 /// A galpixel on its way: the only thing that crosses from propagation to resolution.
@@ -199,13 +164,13 @@ pub fn arrivals<'m, L: Layout, B: Budget<L>>(
     grid.starts().iter().enumerate().flat_map(move |(y, &start)| {
         (0..grid.width()).filter_map(move |x| {
             let source = start + x;
-            let block = front.block::<1>(source)?;
-            if record.class().unsigned(&block)[0] == Class::Empty as u32 {
+            let mut words = front.words_at(source)?;
+            if record.class().unsigned(&words) == Class::Empty as u32 {
                 return None;
             }
-            let moved = advance::<L, 1>(record, &thresholds, block);
-            let cell = grid.cell(x as i32 + moved.dx[0], y as i32 + moved.dy[0]);
-            Some(Arrival { cell, source, words: moved.block.map(|[word]| word), saturated: moved.saturated(0) })
+            let step = advance::<L>(record, &thresholds, &mut words);
+            let cell = grid.cell(x as i32 + step.dx, y as i32 + step.dy);
+            Some(Arrival { cell, source, words, saturated: step.saturated() })
         })
     })
 }

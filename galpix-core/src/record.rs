@@ -38,8 +38,8 @@ pub struct Field {
     pub spill: u8,
 }
 
-/// Words of `N` galpixels side by side: `block[word][lane]`.
-pub(crate) type Block<const N: usize> = [[u32; N]; MAX_WORDS];
+/// The words of one galpixel. Those beyond the record's are 0.
+pub(crate) type Words = [u32; MAX_WORDS];
 
 const fn low_mask(bits: u32) -> u32 {
     if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
@@ -58,66 +58,77 @@ impl Field {
         (self.bits - self.spill) as u32
     }
 
-    /// The field of each lane as an unsigned number.
+    /// The word of the upper part, and the word of what spills (the same if nothing does).
     #[inline(always)]
-    pub(crate) fn unsigned<const N: usize>(self, block: &Block<N>) -> [u32; N] {
-        let mut out = [0; N];
-        if self.bits == 0 {
-            return out;
-        }
-        let upper = &block[self.word as usize & (MAX_WORDS - 1)];
-        let (left, right) = (32 - self.upper_bits() - self.shift as u32, 32 - self.upper_bits());
-        for lane in 0..N {
-            out[lane] = (upper[lane] << left) >> right;
-        }
-        if self.spill != 0 {
-            let lower = &block[(self.word as usize + 1) & (MAX_WORDS - 1)];
-            for lane in 0..N {
-                out[lane] = out[lane] << self.spill | lower[lane] >> (32 - self.spill as u32);
-            }
-        }
-        out
+    pub(crate) fn words(self) -> (usize, usize) {
+        let word = self.word as usize & (MAX_WORDS - 1);
+        (word, (word + (self.spill > 0) as usize) & (MAX_WORDS - 1))
     }
 
-    /// The field of each lane as a two's complement number.
+    /// How this field is taken out of its words.
     #[inline(always)]
-    pub(crate) fn signed<const N: usize>(self, block: &Block<N>) -> [i32; N] {
-        let mut out = [0; N];
-        if self.bits == 0 {
-            return out;
+    pub(crate) fn extract(self) -> Extract {
+        let upper_bits = if self.bits == 0 { 32 } else { self.upper_bits() };
+        Extract {
+            left: 32 - upper_bits - self.shift as u32,
+            right: 32 - upper_bits,
+            spill: self.spill as u32,
+            present: if self.bits == 0 { 0 } else { u32::MAX },
         }
-        let upper = &block[self.word as usize & (MAX_WORDS - 1)];
-        let (left, right) = (32 - self.upper_bits() - self.shift as u32, 32 - self.upper_bits());
-        for lane in 0..N {
-            out[lane] = ((upper[lane] << left) as i32) >> right;
-        }
-        if self.spill != 0 {
-            let lower = &block[(self.word as usize + 1) & (MAX_WORDS - 1)];
-            for lane in 0..N {
-                out[lane] = out[lane] << self.spill | (lower[lane] >> (32 - self.spill as u32)) as i32;
-            }
-        }
-        out
     }
 
-    /// Replaces the field of each lane by the low bits of `values`.
+    /// The field as an unsigned number.
     #[inline(always)]
-    pub(crate) fn set<const N: usize>(self, block: &mut Block<N>, values: &[u32; N]) {
+    pub(crate) fn unsigned(self, words: &Words) -> u32 {
+        let (upper, lower) = self.words();
+        self.extract().unsigned(words[upper], words[lower])
+    }
+
+    /// The field as a two's complement number.
+    #[inline(always)]
+    pub(crate) fn signed(self, words: &Words) -> i32 {
+        let (upper, lower) = self.words();
+        self.extract().signed(words[upper], words[lower])
+    }
+
+    /// Replaces the field by the low bits of `value`.
+    #[inline(always)]
+    pub(crate) fn set(self, words: &mut Words, value: u32) {
         if self.bits == 0 {
             return;
         }
+        let (upper, lower) = self.words();
         let mask = low_mask(self.upper_bits()) << self.shift;
-        let upper = &mut block[self.word as usize & (MAX_WORDS - 1)];
-        for lane in 0..N {
-            upper[lane] = upper[lane] & !mask | (values[lane] >> self.spill) << self.shift & mask;
-        }
+        words[upper] = words[upper] & !mask | (value >> self.spill) << self.shift & mask;
         if self.spill != 0 {
             let shift = 32 - self.spill as u32;
-            let lower = &mut block[(self.word as usize + 1) & (MAX_WORDS - 1)];
-            for lane in 0..N {
-                lower[lane] = lower[lane] & low_mask(shift) | values[lane] << shift;
-            }
+            words[lower] = words[lower] & low_mask(shift) | value << shift;
         }
+    }
+}
+
+/// How one field is taken out of the word of its upper part and the word of what spills. Branch-free, so that loops over
+/// lanes become vector code.
+#[derive(Clone, Copy)]
+pub(crate) struct Extract {
+    left: u32,
+    right: u32,
+    spill: u32,
+    /// All ones, or 0 for an absent field.
+    present: u32,
+}
+
+impl Extract {
+    #[inline(always)]
+    pub(crate) fn unsigned(self, upper: u32, lower: u32) -> u32 {
+        let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
+        (((upper << self.left) >> self.right) << self.spill | spilled) & self.present
+    }
+
+    #[inline(always)]
+    pub(crate) fn signed(self, upper: u32, lower: u32) -> i32 {
+        let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
+        ((((upper << self.left) as i32) >> self.right) << self.spill | spilled as i32) & self.present as i32
     }
 }
 

@@ -8,7 +8,7 @@ use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
 use crate::propagate::Arrival;
-use crate::record::{Block, Record};
+use crate::record::{Record, Words};
 use crate::tally::Tally;
 
 /// In a winner map: nothing arrived at this cell.
@@ -30,15 +30,10 @@ pub const fn nearer(challenger: Claim, incumbent: Claim) -> bool {
     challenger.key < incumbent.key || challenger.key == incumbent.key && challenger.source < incumbent.source
 }
 
-/// Class and depth of each lane as one number, the smaller the nearer.
+/// Class and depth as one number, the smaller the nearer.
 #[inline(always)]
-pub(crate) fn keys<const N: usize>(record: &Record, block: &Block<N>) -> [u32; N] {
-    let (class, depth) = (record.class().unsigned(block), record.depth().unsigned(block));
-    let mut keys = [0; N];
-    for lane in 0..N {
-        keys[lane] = class[lane] << record.depth().bits | depth[lane];
-    }
-    keys
+pub(crate) fn key(record: &Record, words: &Words) -> u32 {
+    record.class().unsigned(words) << record.depth().bits | record.depth().unsigned(words)
 }
 
 /// Settles arrivals into an empty map, whatever order they come in.
@@ -62,18 +57,16 @@ pub fn settle<L: Layout, B: Budget<L>>(
             tally.lost += 1;
             continue;
         };
-        let challenger_block = arrival.words.map(|word| [word]);
-        let [key] = keys(back.record(), &challenger_block);
-        let Some((incumbent_block, winner)) = back.block::<1>(cell).zip(winners.get_mut(cell as usize)) else {
+        let Some((incumbent, winner)) = back.words_at(cell).zip(winners.get_mut(cell as usize)) else {
             continue;
         };
-        let [incumbent] = keys(back.record(), &incumbent_block);
+        let incumbent = key(back.record(), &incumbent);
         let occupied = incumbent >> back.record().depth().bits != Class::Empty as u32;
         tally.collided += occupied as u32;
-        let claim = Claim { key, source: arrival.source };
+        let claim = Claim { key: key(back.record(), &arrival.words), source: arrival.source };
         if !occupied || nearer(claim, Claim { key: incumbent, source: *winner }) {
             *winner = arrival.source;
-            back.put(cell, &challenger_block);
+            back.put(cell, &arrival.words);
         }
     }
     tally

@@ -34,18 +34,8 @@ fn span<'m, L: Layout, B: Budget<L>>(
         }
         _ => &[],
     };
-    let upper = plane(field.word as usize);
-    let lower = if field.spill > 0 { plane(field.word as usize + 1) } else { upper };
-    upper.iter().zip(lower).map(move |(&upper, &lower)| {
-        let mut block: crate::record::Block<1> = Default::default();
-        if let Some(word) = block.get_mut(field.word as usize + 1) {
-            *word = [lower];
-        }
-        if let Some(word) = block.get_mut(field.word as usize) {
-            *word = [upper];
-        }
-        field.unsigned(&block)[0]
-    })
+    let ((upper, lower), extract) = (field.words(), field.extract());
+    plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.unsigned(upper, lower))
 }
 
 #[cfg(feature = "embedded-graphics")]

@@ -1,22 +1,28 @@
 //! Stages 1 and 2 fused: propagates a whole map and resolves it, in raster order, with no buffer between.
 //!
-//! Neighbours mostly move alike. A run of [`RUN`] neighbours whose displacements are equal is stored as a whole; any other
-//! run goes galpixel by galpixel. Both do what [`crate::propagate::arrivals`] and [`crate::resolve::settle`] define, bit by
-//! bit: in raster order an incumbent has the smaller source, so that comparing keys alone decides.
+//! Neighbours mostly move alike. A row is taken in chunks of [`CHUNK`] cells; all of a chunk's galpixels are moved at
+//! once, and then each run of neighbours with equal displacements is stored as a whole, wherever it goes. The result is
+//! what [`crate::propagate::arrivals`] and [`crate::resolve::settle`] define, bit by bit: in raster order an incumbent has
+//! the smaller source, so that comparing keys alone decides.
 //!
 //! Rows of the new map are cleared just before they are first needed, while the old map's neighbourhood is in the cache.
+
+use core::ops::Range;
 
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::propagate::{Moved, advance, thresholds};
-use crate::record::{Block, MAX_WORDS};
-use crate::resolve::{NOBODY, keys};
+use crate::propagate::{advance, thresholds};
+use crate::record::MAX_WORDS;
+use crate::resolve::{self, NOBODY};
 use crate::rounding::Rounding;
 use crate::tally::Tally;
 
-/// Neighbours that are treated at once.
-pub const RUN: usize = 8;
+/// Cells that are moved at once: enough for vector code, few enough to stay in the first cache.
+const CHUNK: usize = 64;
+
+/// Shorter runs go galpixel by galpixel.
+const SHORT_RUN: usize = 4;
 
 /// Rows that are cleared at once.
 const ROWS_AHEAD: i32 = 4;
@@ -30,11 +36,29 @@ struct Target<'t, 'p, L, B> {
     tally: Tally,
 }
 
+/// A chunk on its way: its galpixels after the step, and where they were. Made once for all chunks.
+struct Chunk {
+    /// `words[word][lane]`.
+    words: [[u32; CHUNK]; MAX_WORDS],
+    keys: [u32; CHUNK],
+    /// Cells moved.
+    dx: [i32; CHUNK],
+    dy: [i32; CHUNK],
+    /// Cells that the lane before moved; the first lane's own for the first.
+    before_dx: [i32; CHUNK],
+    before_dy: [i32; CHUNK],
+    /// Not 0 where a lane does not go with the one before it: there a run ends.
+    turns: [i32; CHUNK],
+    x: i32,
+    y: i32,
+    source: u32,
+}
+
 /// Propagates `front` by one frame into `back` and resolves collisions.
 ///
 /// `frame` is the frame counter of `front`; it may wrap. `winners` is either empty, and then nobody's origin is kept, or
-/// has a word for each cell. Cells that nothing reached are of class empty; their other fields are not defined before
-/// [`crate::fill`] has gone over them. Both maps must have the same grid, else nothing is done.
+/// has a word for each cell. Cells that nothing reached are of class empty; their other fields and their winner are
+/// not defined before [`crate::fill`] has gone over them. Both maps must have the same grid, else nothing is done.
 pub fn sweep<L: Layout, B: Budget<L>>(
     front: &Galpixmap<'_, L, B>,
     back: &mut Galpixmap<'_, L, B>,
@@ -48,166 +72,226 @@ pub fn sweep<L: Layout, B: Budget<L>>(
     }
     let thresholds = thresholds(front.record(), rounding, frame);
     let mut target = Target { back, winners, cleared: 0, tally: Tally::default() };
+    let mut chunk = Chunk {
+        words: [[0; CHUNK]; MAX_WORDS],
+        keys: [0; CHUNK],
+        dx: [0; CHUNK],
+        dy: [0; CHUNK],
+        before_dx: [0; CHUNK],
+        before_dy: [0; CHUNK],
+        turns: [0; CHUNK],
+        x: 0,
+        y: 0,
+        source: 0,
+    };
     for (y, &start) in grid.starts().iter().enumerate() {
         let mut x = 0;
-        while x + RUN as u32 <= grid.width() {
-            target.take::<RUN>(front, &thresholds, x as i32, y as i32, start + x);
-            x += RUN as u32;
-        }
         while x < grid.width() {
-            target.take::<1>(front, &thresholds, x as i32, y as i32, start + x);
-            x += 1;
+            let cells = (grid.width() - x).min(CHUNK as u32);
+            (chunk.x, chunk.y, chunk.source) = (x as i32, y as i32, start + x);
+            target.take(front, &thresholds, &mut chunk, cells as usize);
+            x += cells;
         }
     }
     target.clear_to(grid.cells());
     target.tally
 }
 
+/// A word of `cells` neighbours from `source` on; cells beyond them are left as they are in `lanes`.
+#[inline(always)]
+fn copy_in(lanes: &mut [u32; CHUNK], plane: &[u32], source: u32, cells: usize) {
+    let Some(from) = plane.get(source as usize..) else { return };
+    if cells == CHUNK {
+        if let Some(from) = from.first_chunk::<CHUNK>() {
+            *lanes = *from;
+        }
+    } else {
+        for (lane, from) in lanes.iter_mut().zip(from).take(cells) {
+            *lane = *from;
+        }
+    }
+}
+
+/// `lanes` moved up by one lane; the first stays.
+#[inline(always)]
+fn shift_in(shifted: &mut [i32; CHUNK], lanes: &[i32; CHUNK]) {
+    shifted[0] = lanes[0];
+    shifted[1..].copy_from_slice(&lanes[..CHUNK - 1]);
+}
+
+/// How many lanes from the first on go straight on.
+#[inline(always)]
+fn straight(turns: &[i32]) -> usize {
+    let (eights, _) = turns.as_chunks::<8>();
+    let straight = eights.iter().take_while(|turns| turns.iter().fold(0, |any, turn| any | turn) == 0).count() << 3;
+    straight + turns.iter().skip(straight).take_while(|&&turn| turn == 0).count()
+}
+
 impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
-    /// Takes the `N` galpixels from column `x` of row `y` on; `source` is the cell of the first.
-    ///
-    /// In smooth motion a run goes one way, or its first part goes one way and its last part another.
+    /// Takes the galpixels of the `cells` cells from where `chunk` stands.
     #[inline(always)]
-    fn take<const N: usize>(
-        &mut self,
-        front: &Galpixmap<'_, L, B>,
-        thresholds: &[i32; 3],
-        x: i32,
-        y: i32,
-        source: u32,
-    ) {
+    fn take(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], chunk: &mut Chunk, cells: usize) {
         let record = front.record();
-        let Some(block) = front.block::<N>(source) else { return };
-        let class = record.class().unsigned(&block);
-        let moved = advance::<L, N>(record, thresholds, block);
-        // `plain` is 0 if all lanes are galpixels within their fields; `apart` if all go the way of the first,
-        // `split` if each goes the way of the first or of the last.
-        let (mut plain, mut apart, mut split) = (0, 0, 0);
-        let (mut first, mut last) = ([0; N], [0; N]);
-        for lane in 0..N {
-            plain |= class[lane] as i32;
-            plain |= moved.strayed[0][lane] | moved.strayed[1][lane] | moved.strayed[2][lane] | moved.strayed[3][lane];
-            let from_first = (moved.dx[lane] ^ moved.dx[0]) | (moved.dy[lane] ^ moved.dy[0]);
-            let from_last = (moved.dx[lane] ^ moved.dx[N - 1]) | (moved.dy[lane] ^ moved.dy[N - 1]);
-            first[lane] = if from_first == 0 { u32::MAX } else { 0 };
-            last[lane] = if from_first == 0 { 0 } else { u32::MAX };
-            apart |= from_first;
-            split |= if from_first == 0 { 0 } else { from_last };
+        for (lanes, plane) in chunk.words.iter_mut().zip(front.planes()).take(record.words()) {
+            copy_in(lanes, plane, chunk.source, cells);
         }
-        if plain != 0 || split != 0 {
-            self.scatter(&moved, &class, &[u32::MAX; N], x, y, source);
-        } else if apart == 0 {
-            self.store_run(&moved, &class, &[u32::MAX; N], 0, x, y, source);
+        let mut strayed = 0;
+        for lane in 0..CHUNK {
+            let mut words = [0; MAX_WORDS];
+            for (word, lanes) in words.iter_mut().zip(&chunk.words).take(record.words()) {
+                *word = lanes[lane];
+            }
+            let step = advance::<L>(record, thresholds, &mut words);
+            for (word, lanes) in words.iter().zip(&mut chunk.words).take(record.words()) {
+                lanes[lane] = *word;
+            }
+            let key = resolve::key(record, &words);
+            chunk.keys[lane] = key;
+            strayed |= step.strayed[0] | step.strayed[1] | step.strayed[2] | step.strayed[3];
+            // Empty cells go a way of their own: no budget has velocities of 2^31.
+            let gone = ((key >> record.depth().bits == Class::Empty as u32) as i32) << 31;
+            chunk.dx[lane] = step.dx | gone;
+            chunk.dy[lane] = step.dy;
+        }
+        if strayed != 0 {
+            self.count_saturated(front, thresholds, chunk.source, cells);
+        }
+        shift_in(&mut chunk.before_dx, &chunk.dx);
+        shift_in(&mut chunk.before_dy, &chunk.dy);
+        let mut any = 0;
+        for lane in 0..CHUNK {
+            let turn = (chunk.dx[lane] ^ chunk.before_dx[lane]) | (chunk.dy[lane] ^ chunk.before_dy[lane]);
+            chunk.turns[lane] = turn;
+            any |= turn;
+        }
+        if any == 0 {
+            self.store_unless_empty(chunk, 0..cells);
         } else {
-            self.store_run(&moved, &class, &first, 0, x, y, source);
-            self.store_run(&moved, &class, &last, N - 1, x, y, source);
+            self.store_runs(chunk, cells);
         }
     }
 
-    /// Stores those lanes of a run, all galpixels, that are `chosen` and go the way of lane `guide`.
+    /// Stores a run of lanes that go the same way, unless that is nowhere.
     #[inline(always)]
-    #[expect(clippy::too_many_arguments, reason = "the run, the choice, and where it comes from")]
-    fn store_run<const N: usize>(
-        &mut self,
-        moved: &Moved<N>,
-        class: &[u32; N],
-        chosen: &[u32; N],
-        guide: usize,
-        x: i32,
-        y: i32,
-        source: u32,
-    ) {
+    fn store_unless_empty(&mut self, chunk: &Chunk, lanes: Range<usize>) {
+        if chunk.keys.get(lanes.start).is_some_and(|&key| self.back.class_of(key) != Class::Empty as u32) {
+            self.store_run(chunk, lanes);
+        }
+    }
+
+    /// Stores a chunk run by run.
+    fn store_runs(&mut self, chunk: &Chunk, cells: usize) {
+        let mut first = 0;
+        while first < cells {
+            let end = first + 1 + straight(chunk.turns.get(first + 1..cells).unwrap_or_default());
+            self.store_unless_empty(chunk, first..end);
+            first = end;
+        }
+    }
+
+    /// Counts what was clamped in a chunk: rare enough to take its steps again.
+    #[cold]
+    fn count_saturated(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], source: u32, cells: usize) {
+        for cell in (source..).take(cells) {
+            if front.class(cell) != Class::Empty
+                && let Some(mut words) = front.words_at(cell)
+            {
+                self.tally.saturated += advance::<L>(front.record(), thresholds, &mut words).saturated();
+            }
+        }
+    }
+
+    /// Stores a run: galpixels, none of them empty, with one displacement.
+    #[inline(always)]
+    fn store_run(&mut self, chunk: &Chunk, lanes: Range<usize>) {
+        let Chunk { dx, dy, keys, x, y, source, .. } = chunk;
+        let (Some(&dx), Some(&dy), Some(keys)) = (dx.get(lanes.start), dy.get(lanes.start), keys.get(lanes.clone()))
+        else {
+            return;
+        };
+        self.tally.moved += keys.len() as u32;
         let grid = self.back.grid();
-        let (to_x, to_y) = (x + moved.dx[guide], y + moved.dy[guide]);
-        let row = if to_x >= 0 && to_x <= grid.width() as i32 - N as i32 { grid.row(to_y) } else { None };
-        let Some(row) = row else { return self.scatter(moved, class, chosen, x, y, source) };
-        let cell = row + to_x as u32;
+        let (to_x, to_y) = (x + lanes.start as i32 + dx, y + dy);
+        let Some(row) = grid.row(to_y) else {
+            self.tally.lost += keys.len() as u32;
+            return;
+        };
+        // Cut off what leaves the map at the left and at the right.
+        let before = (-to_x).max(0) as usize;
+        let beyond = (to_x + keys.len() as i32 - grid.width() as i32).max(0) as usize;
+        if before + beyond >= keys.len() {
+            self.tally.lost += keys.len() as u32;
+            return;
+        }
+        self.tally.lost += (before + beyond) as u32;
+        let lanes = lanes.start + before..lanes.end - beyond;
+        let cell = row + (to_x + before as i32) as u32;
         self.clear_for(row, to_y);
-        let Some(incumbent) = self.back.keys::<N>(cell) else { return };
-        let depth_bits = self.back.record().depth().bits;
-        let vacant = chosen.iter().zip(&incumbent).fold(u32::MAX, |vacant, (chosen, key)| vacant & chosen & key);
-        if vacant >> depth_bits == Class::Empty as u32 {
-            self.tally.moved += N as u32;
-            self.back.put_block(cell, &moved.block);
-            if let Some(winners) = self.winners.get_mut(cell as usize..).and_then(|rest| rest.first_chunk_mut::<N>()) {
-                for lane in 0..N {
-                    winners[lane] = source + lane as u32;
+        self.put_run(chunk, lanes.clone(), cell, source + lanes.start as u32);
+    }
+
+    /// Puts the lanes of a run into the cells from `cell` on, where they are nearer than what is there.
+    #[inline(always)]
+    fn put_run(&mut self, chunk: &Chunk, lanes: Range<usize>, cell: u32, source: u32) {
+        if lanes.len() < SHORT_RUN {
+            for (lane, offset) in lanes.zip(0..) {
+                self.put_one(chunk, lane, cell + offset, source + offset);
+            }
+            return;
+        }
+        let Some(keys) = chunk.keys.get(lanes.clone()) else { return };
+        let record = self.back.record();
+        let words = record.words();
+        let cells = cell as usize..cell as usize + lanes.len();
+        let mut wins = [0; CHUNK];
+        let Some(wins) = wins.get_mut(..lanes.len()) else { return };
+        let mut occupied = 0;
+        for ((incumbent, &challenger), win) in self.back.keys(cells.clone()).zip(keys).zip(&mut *wins) {
+            *win = if challenger < incumbent { u32::MAX } else { 0 };
+            occupied += (self.back.class_of(incumbent) != Class::Empty as u32) as u32;
+        }
+        if occupied == 0 {
+            for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
+                if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
+                    to.copy_from_slice(from);
+                }
+            }
+            if let Some(winners) = self.winners.get_mut(cells) {
+                for (winner, source) in winners.iter_mut().zip(source..) {
+                    *winner = source;
                 }
             }
         } else {
-            self.merge(moved, chosen, &incumbent, cell, source);
+            self.tally.collided += occupied;
+            for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
+                if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
+                    for ((to, &from), &win) in to.iter_mut().zip(from).zip(&*wins) {
+                        *to = *to & !win | from & win;
+                    }
+                }
+            }
+            if let Some(winners) = self.winners.get_mut(cells) {
+                for ((winner, source), &win) in winners.iter_mut().zip(source..).zip(&*wins) {
+                    *winner = *winner & !win | source & win;
+                }
+            }
         }
     }
 
-    /// Stores those chosen lanes of a run that are nearer than the incumbents.
+    /// Puts one lane into one cell, if it is nearer than what is there.
     #[inline(always)]
-    fn merge<const N: usize>(
-        &mut self,
-        moved: &Moved<N>,
-        chosen: &[u32; N],
-        incumbent: &[u32; N],
-        cell: u32,
-        source: u32,
-    ) {
-        let record = self.back.record();
-        let (words, depth_bits) = (record.words(), record.depth().bits);
-        let key = keys(record, &moved.block);
-        let mut wins = [0; N];
-        let (mut arrived, mut collided) = (0, 0);
-        for lane in 0..N {
-            wins[lane] = if key[lane] < incumbent[lane] { chosen[lane] } else { 0 };
-            arrived += chosen[lane] & 1;
-            collided += if incumbent[lane] >> depth_bits == Class::Empty as u32 { 0 } else { chosen[lane] & 1 };
-        }
-        self.tally.moved += arrived;
-        self.tally.collided += collided;
-        for (plane, lanes) in self.back.planes_mut().iter_mut().zip(&moved.block).take(words) {
-            if let Some(target) = plane.get_mut(cell as usize..).and_then(|rest| rest.first_chunk_mut::<N>()) {
-                for lane in 0..N {
-                    target[lane] = target[lane] & !wins[lane] | lanes[lane] & wins[lane];
+    fn put_one(&mut self, chunk: &Chunk, lane: usize, cell: u32, source: u32) {
+        let (Some(incumbent), Some(&key)) = (self.back.key_at(cell), chunk.keys.get(lane)) else { return };
+        self.tally.collided += (self.back.class_of(incumbent) != Class::Empty as u32) as u32;
+        if key < incumbent {
+            let words = self.back.record().words();
+            for (plane, lanes) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
+                if let (Some(to), Some(word)) = (plane.get_mut(cell as usize), lanes.get(lane)) {
+                    *to = *word;
                 }
             }
-        }
-        if let Some(winners) = self.winners.get_mut(cell as usize..).and_then(|rest| rest.first_chunk_mut::<N>()) {
-            for lane in 0..N {
-                winners[lane] = winners[lane] & !wins[lane] | (source + lane as u32) & wins[lane];
-            }
-        }
-    }
-
-    /// Stores each chosen lane of a block for itself.
-    fn scatter<const N: usize>(
-        &mut self,
-        moved: &Moved<N>,
-        class: &[u32; N],
-        chosen: &[u32; N],
-        x: i32,
-        y: i32,
-        source: u32,
-    ) {
-        let key = keys(self.back.record(), &moved.block);
-        for lane in 0..N {
-            if class[lane] == Class::Empty as u32 || chosen[lane] == 0 {
-                continue;
-            }
-            self.tally.moved += 1;
-            self.tally.saturated += moved.saturated(lane);
-            let (x, y) = (x + lane as i32 + moved.dx[lane], y + moved.dy[lane]);
-            let grid = self.back.grid();
-            let row = if (x as u32) < grid.width() { grid.row(y) } else { None };
-            let Some(row) = row else {
-                self.tally.lost += 1;
-                continue;
-            };
-            self.clear_for(row, y);
-            let cell = row + x as u32;
-            let Some([incumbent]) = self.back.keys::<1>(cell) else { continue };
-            self.tally.collided += (incumbent >> self.back.record().depth().bits != Class::Empty as u32) as u32;
-            if key[lane] < incumbent {
-                self.back.put_lane(cell, &moved.block, lane);
-                if let Some(winner) = self.winners.get_mut(cell as usize) {
-                    *winner = source + lane as u32;
-                }
+            if let Some(winner) = self.winners.get_mut(cell as usize) {
+                *winner = source;
             }
         }
     }
@@ -221,16 +305,16 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
         }
     }
 
-    /// Clears up to, but without, the cell `end`: class empty, no winner.
+    /// Clears up to, but without, the cell `end`.
     fn clear_to(&mut self, end: u32) {
         let cells = self.cleared as usize..end as usize;
         let record = *self.back.record();
-        let mut empty: Block<1> = Default::default();
-        record.class().set(&mut empty, &[Class::Empty as u32]);
-        for word in [record.class().word, record.class().word + (record.class().spill > 0) as u8] {
-            let word = word as usize & (MAX_WORDS - 1);
-            if let Some(cells) = self.back.planes_mut()[word].get_mut(cells.clone()) {
-                cells.fill(empty[word][0]);
+        let mut empty = [0; MAX_WORDS];
+        record.class().set(&mut empty, Class::Empty as u32);
+        let words = record.words();
+        for (plane, word) in self.back.planes_mut().iter_mut().zip(empty).take(words) {
+            if let Some(cells) = plane.get_mut(cells.clone()) {
+                cells.fill(word);
             }
         }
         if let Some(cells) = self.winners.get_mut(cells) {
