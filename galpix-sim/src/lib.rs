@@ -3,4 +3,5 @@
 pub mod film;
 pub mod metric;
 pub mod picture;
+pub mod report;
 pub mod update;
