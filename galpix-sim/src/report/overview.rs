@@ -113,7 +113,8 @@ pub fn overview(report: &Report) -> String {
          <th>scene</th><th>frame</th><th>galpix</th><th>sample-and-hold</th><th>gain</th>\
          <th>worst position error</th><th>holes</th><th>ns a galpixel</th></tr></thead><tbody>{lines}</tbody></table></div>\
          <p class=\"remark\">PSNR against the truth, in the last frame that has one; holes before filling, in the same \
-         frame. Position error before the snap, in the frames that the bound covers. Time: the median of all frames.</p></section>"
+         frame. Position error before the snap, in the frames that the bound covers. Time: the median of all frames.</p>\
+         </section>"
     )
 }
 
