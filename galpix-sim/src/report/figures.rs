@@ -1,0 +1,92 @@
+//! Which lines the plots of a story have.
+
+use super::plot::{Line, Plot, Stroke, svg};
+use super::style::Ink;
+use super::text::Text;
+use super::{Row, Story};
+use crate::metric::PSNR_CAP_DB;
+
+/// The plots of a story, each a `<figure>` with its legend: PSNR, position error, tallies.
+pub fn figures(story: &Story) -> String {
+    let parts = [quality(story), position(story), tallies(story)];
+    format!("<div class=\"plots\">{}</div>", parts.concat())
+}
+
+/// A line through one column of the rows.
+fn line(story: &Story, name: &str, ink: Ink, stroke: Stroke, column: impl Fn(&Row) -> Option<f64>) -> Line {
+    let points = story.rows.iter().map(|row| (row.frame, column(row))).collect();
+    Line { name: name.to_owned(), ink, stroke, points }
+}
+
+fn quality(story: &Story) -> String {
+    let lines = vec![
+        line(story, "sample-and-hold", Ink::Hold, Stroke::Solid, |row| row.psnr_hold_db),
+        line(story, "galpix, cells reached", Ink::Known, Stroke::Dashed, |row| row.psnr_known_db),
+        line(story, "galpix", Ink::Galpix, Stroke::Solid, |row| row.psnr_db),
+    ];
+    let mut remark = "Likeness to the truth: higher is better.".to_owned();
+    let capped = |line: &Line| line.points.iter().any(|&(_, value)| value.is_some_and(|value| value >= PSNR_CAP_DB));
+    if lines.iter().any(capped) {
+        remark += " Identical pictures are drawn at the upper end.";
+    }
+    figure(story, "PSNR", "dB", &remark, "No truth to compare with.", lines, false)
+}
+
+fn position(story: &Story) -> String {
+    let mut lines = Vec::new();
+    let measured = |row: &Row| row.position_error_px.or(row.mean_position_error_px);
+    let mut remark = "How far galpixels are from where they should be, before the snap to a cell.".to_owned();
+    if let Some(certificate) = &story.certificate {
+        let bound = certificate.per_frame_px.iter().zip(0..).map(|(&bound, frame)| (frame, Some(bound))).collect();
+        lines.push(Line { name: "certified bound".into(), ink: Ink::Bound, stroke: Stroke::Dashed, points: bound });
+        remark += " The bound covers the arithmetic; the snap adds at most half a pixel, as with any method.";
+    }
+    lines.push(line(story, "mean measured", Ink::Known, Stroke::Dashed, |row| row.mean_position_error_px));
+    lines.push(line(story, "worst measured", Ink::Galpix, Stroke::Solid, |row| row.position_error_px));
+    let nothing = "The true motion is not known here.";
+    if !story.rows.iter().any(|row| measured(row).is_some_and(f64::is_finite)) {
+        remark = format!("{nothing} {remark}");
+    }
+    figure(story, "Position error", "px", &remark, nothing, lines, true)
+}
+
+fn tallies(story: &Story) -> String {
+    let lines = vec![
+        line(story, "collided", Ink::Collided, Stroke::Dashed, |row| Some(row.collided as f64)),
+        line(story, "lost at the border", Ink::Lost, Stroke::Dashed, |row| Some(row.lost as f64)),
+        line(story, "holes", Ink::Holes, Stroke::Solid, |row| Some(row.holes as f64)),
+        line(story, "filled", Ink::Filled, Stroke::Solid, |row| Some(row.filled as f64)),
+    ];
+    let remark = "What the passes counted in each frame.";
+    figure(story, "Tallies", "cells", remark, "No frame was counted.", lines, true)
+}
+
+fn figure(
+    story: &Story,
+    title: &str,
+    unit: &str,
+    remark: &str,
+    nothing: &str,
+    mut lines: Vec<Line>,
+    from_zero: bool,
+) -> String {
+    lines.retain(|line| !line.is_empty());
+    let legend: String = lines.iter().rev().map(key).collect();
+    let description = format!("{}: {title} in {unit} over frames since the update", story.name);
+    let cap = if from_zero { f64::INFINITY } else { PSNR_CAP_DB };
+    let drawing = match svg(&Plot { description, lines, from_zero, cap }) {
+        Some(drawing) => format!("{drawing}<p class=\"axis\">frames since the update</p>"),
+        None => return format!("<figure><h3>{title}</h3><p class=\"nothing\">{}</p></figure>", Text(nothing)),
+    };
+    format!(
+        "<figure><h3>{title} <small>{unit}</small></h3><p class=\"legend\">{legend}</p>{drawing}\
+         <figcaption>{}</figcaption></figure>",
+        Text(remark)
+    )
+}
+
+/// One entry of a legend.
+fn key(line: &Line) -> String {
+    let kind = if line.stroke == Stroke::Dashed { "key dashed" } else { "key" };
+    format!("<span><i class=\"{kind}\" style=\"--ink:var(--{})\"></i>{}</span> ", line.ink.name(), Text(&line.name))
+}

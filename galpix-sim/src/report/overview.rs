@@ -1,0 +1,161 @@
+//! The table at the top: one line a scene.
+
+use super::text::{Text, anchor, figure, signed};
+use super::{CertificateLine, Report, Row, Story};
+
+/// How measured position errors lie to the certified bound.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// Inside it in each frame.
+    Inside,
+    /// Beyond it, for the first time in this frame.
+    BeyondFrom(u32),
+}
+
+/// What one line of the overview says of a story.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// The last frame that was compared with a truth, else the last frame.
+    pub frame: Option<u32>,
+    /// PSNR of galpix in that frame.
+    pub psnr_db: Option<f64>,
+    /// PSNR of sample-and-hold in that frame.
+    pub psnr_hold_db: Option<f64>,
+    /// The difference of the two.
+    pub gain_db: Option<f64>,
+    /// The worst position error, of the frames that the certificate covers where it says which.
+    pub worst_px: Option<f64>,
+    /// The certified bound at the horizon.
+    pub bound_px: Option<f64>,
+    /// How the measured errors lie to the bound, where both are known.
+    pub standing: Option<Standing>,
+    /// Share of the display that was holes before filling, in that frame, per cent.
+    pub holes_percent: Option<f64>,
+    /// The median over the frames.
+    pub ns_per_galpixel: Option<f64>,
+}
+
+impl Summary {
+    /// Of a whole story.
+    pub fn of(story: &Story) -> Self {
+        let compared = |row: &&Row| row.psnr_db.is_some() || row.psnr_hold_db.is_some();
+        let last = story.rows.iter().rev().find(compared).or(story.rows.last());
+        let psnr_db = last.and_then(|row| row.psnr_db);
+        let psnr_hold_db = last.and_then(|row| row.psnr_hold_db);
+        let (worst_px, standing) = against_bound(story);
+        let cells = story.width as f64 * story.height as f64;
+        Self {
+            frame: last.map(|row| row.frame),
+            psnr_db,
+            psnr_hold_db,
+            gain_db: psnr_db.zip(psnr_hold_db).map(|(galpix, hold)| galpix - hold),
+            worst_px,
+            bound_px: story.certificate.as_ref().map(|certificate| certificate.total_px),
+            standing,
+            holes_percent: last.filter(|_| cells > 0.0).map(|row| 100.0 * row.holes as f64 / cells),
+            ns_per_galpixel: median(finite(story, |row| row.ns_per_galpixel).collect()),
+        }
+    }
+}
+
+/// The bound of a frame, `None` beyond the horizon: that of the frame where there is one for each, else the total.
+fn bound_after(certificate: &CertificateLine, frame: u32) -> Option<f64> {
+    match certificate.per_frame_px.is_empty() {
+        true => Some(certificate.total_px),
+        false => certificate.per_frame_px.get(usize::try_from(frame).ok()?).copied(),
+    }
+}
+
+/// The worst error and its standing, over the frames that the certificate covers (all frames without one).
+fn against_bound(story: &Story) -> (Option<f64>, Option<Standing>) {
+    let Some(certificate) = &story.certificate else {
+        return (finite(story, |row| row.position_error_px).reduce(f64::max), None);
+    };
+    let mut worst = None;
+    let mut standing = None;
+    for row in &story.rows {
+        let error = row.position_error_px.filter(|error| error.is_finite());
+        let Some((error, bound)) = error.zip(bound_after(certificate, row.frame)) else { continue };
+        worst = Some(error.max(worst.unwrap_or(error)));
+        standing = match standing {
+            Some(Standing::BeyondFrom(frame)) => Some(Standing::BeyondFrom(frame)),
+            _ if error <= bound => Some(Standing::Inside),
+            _ => Some(Standing::BeyondFrom(row.frame)),
+        };
+    }
+    (worst, standing)
+}
+
+fn finite(story: &Story, column: impl Fn(&Row) -> Option<f64>) -> impl Iterator<Item = f64> {
+    story.rows.iter().filter_map(column).filter(|value| value.is_finite())
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() % 2 {
+        1 => values.get(middle).copied(),
+        _ => Some((values.get(middle.checked_sub(1)?)? + values.get(middle)?) / 2.0),
+    }
+}
+
+/// The overview as a section.
+pub fn overview(report: &Report) -> String {
+    if report.stories.is_empty() {
+        return "<section id=\"overview\"><h2>Overview</h2><p class=\"nothing\">No scene was run.</p></section>".into();
+    }
+    let summaries: Vec<_> = report.stories.iter().map(Summary::of).collect();
+    let widest = summaries.iter().filter_map(|s| s.gain_db).map(f64::abs).filter(|g| g.is_finite()).fold(0.0, f64::max);
+    let stories = report.stories.iter().enumerate().zip(&summaries);
+    let lines: String = stories.map(|((index, story), summary)| line(index, story, summary, widest)).collect();
+    format!(
+        "<section id=\"overview\"><h2>Overview</h2><div class=\"wide\"><table class=\"overview\"><thead><tr>\
+         <th>scene</th><th>frame</th><th>galpix</th><th>sample-and-hold</th><th>gain</th>\
+         <th>worst position error</th><th>holes</th><th>ns a galpixel</th></tr></thead><tbody>{lines}</tbody></table></div>\
+         <p class=\"remark\">PSNR against the truth, in the last frame that has one; holes before filling, in the same \
+         frame. Position error before the snap, in the frames that the bound covers. Time: the median of all frames.</p>\
+         </section>"
+    )
+}
+
+fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> String {
+    let frame = summary.frame.map_or_else(|| figure(None, 0), |frame| frame.to_string());
+    let unit = |value: Option<f64>, decimals: usize, unit: &str| match value {
+        Some(value) if value.is_finite() => format!("{}<small>{unit}</small>", figure(Some(value), decimals)),
+        _ => figure(None, 0),
+    };
+    let cell = |name: &str, content: &str| format!("<td data-name=\"{name}\"><span>{content}</span></td>");
+    let bound = match (summary.bound_px, summary.standing) {
+        (Some(bound), Some(Standing::Inside)) => format!(" <em class=\"good\">inside {}</em>", figure(Some(bound), 2)),
+        (Some(_), Some(Standing::BeyondFrom(frame))) => format!(" <em class=\"poor\">past bound at {frame}</em>"),
+        (Some(bound), None) => format!(" <em>bound {}</em>", figure(Some(bound), 2)),
+        (None, _) => String::new(),
+    };
+    [
+        format!("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(index, &story.name), Text(&story.name)),
+        cell("frame", &frame),
+        cell("galpix", &unit(summary.psnr_db, 1, "dB")),
+        cell("sample-and-hold", &unit(summary.psnr_hold_db, 1, "dB")),
+        cell("gain", &gain(summary.gain_db, widest_gain)),
+        cell("worst position error", &format!("{}{bound}", unit(summary.worst_px, 2, "px"))),
+        cell("holes", &unit(summary.holes_percent, 1, "%")),
+        cell("ns a galpixel", &figure(summary.ns_per_galpixel, 1)),
+        "</tr>".to_owned(),
+    ]
+    .concat()
+}
+
+/// The gain as a figure with a bar, relative to the widest gain of the report.
+fn gain(gain_db: Option<f64>, widest: f64) -> String {
+    match gain_db.filter(|gain| gain.is_finite()) {
+        None => figure(None, 0),
+        Some(gain) => {
+            let share = if widest > 0.0 { (100.0 * gain.abs() / widest).round() } else { 0.0 };
+            let class = if gain < 0.0 { "bar poor" } else { "bar good" };
+            format!(
+                "<i class=\"{class}\"><i style=\"width:{share:.0}%\"></i></i>{}<small>dB</small>",
+                signed(Some(gain), 1)
+            )
+        }
+    }
+}

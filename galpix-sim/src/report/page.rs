@@ -1,0 +1,42 @@
+//! The page around the stories.
+
+use super::overview::overview;
+use super::story::section;
+use super::style::sheet;
+use super::text::Text;
+use super::{Report, Story};
+
+/// The report as one HTML document that needs nothing but itself, in a light and a dark scheme.
+#[must_use]
+pub fn html(report: &Report) -> String {
+    let stories: String = report.stories.iter().enumerate().map(|(index, story)| section(index, story)).collect();
+    // the script only serves films
+    let script = match report.stories.iter().all(|story: &Story| story.film_apng.is_empty()) {
+        true => String::new(),
+        false => format!("<script>\n{}</script>", include_str!("player.js")),
+    };
+    [
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">".to_owned(),
+        "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">".to_owned(),
+        "<meta name=\"color-scheme\" content=\"light dark\">".to_owned(),
+        format!("<title>{}</title><style>\n{}</style></head><body>\n", Text(&report.title), sheet()),
+        header(report),
+        "<main>\n".to_owned(),
+        overview(report),
+        include_str!("primer.html").replace("<!--galpixel-->", include_str!("galpixel.svg")),
+        stories,
+        format!("</main>{script}</body></html>\n"),
+    ]
+    .concat()
+}
+
+fn header(report: &Report) -> String {
+    let paragraphs: String = report.intro.iter().map(|text| format!("<p>{}</p>", Text(text))).collect();
+    let facts: String = report
+        .facts
+        .iter()
+        .map(|(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", Text(name), Text(value)))
+        .collect();
+    let facts = if facts.is_empty() { facts } else { format!("<dl class=\"facts\">{facts}</dl>") };
+    format!("<header><h1>{}</h1>{paragraphs}{facts}</header>\n", Text(&report.title))
+}
