@@ -23,7 +23,7 @@ fn main() -> anyhow::Result<()> {
             paste(&mut sheet, &render(*scene, t), GAP + column * cell_width, GAP + row * cell_height);
         }
     }
-    sheet.save_png(&path)?;
+    sheet.write_png(&path)?;
     println!("{} pictures in {:.1?}: {}", TIMES * all().len(), started.elapsed(), path.display());
     Ok(())
 }

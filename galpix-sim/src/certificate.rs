@@ -50,10 +50,13 @@ impl Certificate {
             .zip(&drift)
             .map(|(frame, &drift_px)| {
                 let n = f64::from(frame);
-                let acceleration = if has_acceleration { n * n / 2.0 * last_bit(scale.acceleration_frac + 1) } else { 0.0 };
+                let acceleration =
+                    if has_acceleration { n * n / 2.0 * last_bit(scale.acceleration_frac + 1) } else { 0.0 };
                 FrameBound {
                     frame,
-                    quantisation_px: last_bit(scale.position_frac + 1) + n * last_bit(scale.velocity_frac + 1) + acceleration,
+                    quantisation_px: last_bit(scale.position_frac + 1)
+                        + n * last_bit(scale.velocity_frac + 1)
+                        + acceleration,
                     drift_px,
                 }
             })
@@ -93,7 +96,8 @@ fn drift_by_frame(scale: &Scale, has_acceleration: bool, rounding: Rounding, pro
     let accelerations = if has_acceleration { modulus } else { 1 };
     let mut worst = vec![0i64; prop as usize];
     for phase in 0..phases {
-        let thresholds: Vec<i64> = (0..prop).map(|n| i64::from(rounding.threshold(phase.wrapping_add(n), down))).collect();
+        let thresholds: Vec<i64> =
+            (0..prop).map(|n| i64::from(rounding.threshold(phase.wrapping_add(n), down))).collect();
         for a in 0..accelerations {
             let a = (a << scale.acceleration_up) & (modulus - 1);
             for v in 0..modulus / 2 {
@@ -138,7 +142,11 @@ mod tests {
             (32, LowDiscrepancy, 0.546875, 0.25),
         ] {
             let certificate = certificate(prop, rounding);
-            assert_eq!((certificate.quantisation_px, certificate.drift_px), (quantisation, drift), "{prop} {rounding:?}");
+            assert_eq!(
+                (certificate.quantisation_px, certificate.drift_px),
+                (quantisation, drift),
+                "{prop} {rounding:?}"
+            );
             assert_eq!(certificate.keeps_one_pixel(), rounding == LowDiscrepancy, "{prop} {rounding:?}");
         }
     }

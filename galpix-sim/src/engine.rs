@@ -71,7 +71,12 @@ impl<L: Layout> Engine<L> {
     /// Extrapolates an update by `frames` frames; `visit` sees the update itself (frame 0) and every frame.
     ///
     /// *Errors:* an update that cannot be laid out.
-    pub fn run(&self, update: &Update, frames: u32, mut visit: impl FnMut(&Frame<'_, L>)) -> Result<LoadTally, EngineError> {
+    pub fn run(
+        &self,
+        update: &Update,
+        frames: u32,
+        mut visit: impl FnMut(&Frame<'_, L>),
+    ) -> Result<LoadTally, EngineError> {
         let wings = core_wings(update.wings);
         let (width, height) = (update.display_width() as u32, update.display_height() as u32);
         let mut starts = vec![0; Grid::rows(height, wings)];
@@ -161,8 +166,7 @@ impl<L: Layout> Frame<'_, L> {
         use galpix_core::colour::Colour;
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let pixels =
-            (0..height as u32).flat_map(|y| scan_out::row(self.map, y)).map(L::Colour::to_rgb888).collect();
+        let pixels = (0..height as u32).flat_map(|y| scan_out::row(self.map, y)).map(L::Colour::to_rgb888).collect();
         Picture { width, height, pixels }
     }
 

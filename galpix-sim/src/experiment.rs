@@ -35,7 +35,9 @@ pub enum Source {
 #[derive(Debug, thiserror::Error)]
 pub enum ExperimentError {
     /// Neither a scene nor a file.
-    #[error("`{0}` is neither a built-in scene nor a capture: `galpix scenes` lists the scenes, or give the path of a capture.toml")]
+    #[error(
+        "`{0}` is neither a built-in scene nor a capture: `galpix scenes` lists the scenes, or give the path of a capture.toml"
+    )]
     NoSuchSource(String),
     /// The capture cannot be read.
     #[error("{0}")]
@@ -200,7 +202,8 @@ impl BudgetReport {
             acceleration_int_bits: bits.x.acceleration_int,
             acceleration_frac_bits: bits.x.acceleration_frac,
             motion_bits_per_component: bits.x.motion_bits(),
-            motion_bytes_per_galpixel: f64::from(bits.x.motion_bits() + bits.y.motion_bits() + bits.z.motion_bits()) / 8.0,
+            motion_bytes_per_galpixel: f64::from(bits.x.motion_bits() + bits.y.motion_bits() + bits.z.motion_bits())
+                / 8.0,
             stored_bytes_per_galpixel: record.bytes(),
         })
     }
@@ -225,13 +228,18 @@ pub struct TruthReport {
     pub missing_at_border: u64,
 }
 
-/// How far galpixels are from their true places, in pixels.
+/// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each galpixel
+/// the worse of x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PositionReport {
-    /// The worst component of any galpixel.
+    /// The worst, against the exact second-order path of the update's motion: what the certificate bounds.
     pub worst_px: f64,
-    /// The mean over galpixels of their worse component.
+    /// The mean, against the same path.
     pub mean_px: f64,
+    /// The worst, against the true motion, where that is known: with what second order cannot know.
+    pub truth_worst_px: Option<f64>,
+    /// The mean, against the true motion.
+    pub truth_mean_px: Option<f64>,
 }
 
 /// One frame.
@@ -259,7 +267,7 @@ pub struct FrameReport {
     pub edges: u32,
     /// Time of the engine for each galpixel moved.
     pub ns_per_galpixel: f64,
-    /// For built-in scenes.
+    /// Of the galpixels of the update that are still on the map.
     pub position: Option<PositionReport>,
     /// Where a truth is known.
     pub truth: Option<TruthReport>,
@@ -407,21 +415,48 @@ fn report<L: Layout>(
     }
 }
 
-/// How far the galpixels of a built-in scene are from where they should be.
-fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
-    let Source::Scene(scene) = source else { return None };
-    let wings = [update.wings.left as f64, update.wings.top as f64];
-    let (mut worst, mut sum, mut count) = (0.0f64, 0.0, 0u32);
-    for (origin, [x, y]) in frame.places() {
-        let (from_x, from_y) = (origin as usize % update.width, origin as usize / update.width);
-        let (from_x, from_y) = (from_x as f64 - wings[0], from_y as f64 - wings[1]);
-        let [true_x, true_y, _] = scene.track(from_x, from_y, 0.0, f64::from(frame.number));
-        let error = (x - wings[0] - true_x).abs().max((y - wings[1] - true_y).abs());
-        worst = worst.max(error);
-        sum += error;
-        count += 1;
+/// The worst and the mean of some errors.
+#[derive(Default)]
+struct Errors {
+    worst: f64,
+    sum: f64,
+    count: u32,
+}
+
+impl Errors {
+    fn add(&mut self, place: [f64; 2], should: [f64; 2]) {
+        let error = (place[0] - should[0]).abs().max((place[1] - should[1]).abs());
+        self.worst = self.worst.max(error);
+        self.sum += error;
+        self.count += 1;
     }
-    (count > 0).then(|| PositionReport { worst_px: worst, mean_px: sum / f64::from(count) })
+
+    fn mean(&self) -> f64 {
+        self.sum / f64::from(self.count)
+    }
+}
+
+/// How far the galpixels of a frame are from where they should be.
+fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
+    let wings = [update.wings.left as f64, update.wings.top as f64];
+    let time = f64::from(frame.number);
+    let (mut second_order, mut truth) = (Errors::default(), Errors::default());
+    for (origin, place) in frame.places() {
+        let sample = update.samples.get(origin as usize)?;
+        let from = [(origin as usize % update.width) as f64, (origin as usize / update.width) as f64];
+        let along = |i: usize| from[i] + sample.velocity[i] * time + sample.acceleration[i] / 2.0 * time * time;
+        second_order.add(place, [along(0), along(1)]);
+        if let Source::Scene(scene) = source {
+            let [x, y, _] = scene.track(from[0] - wings[0], from[1] - wings[1], 0.0, time);
+            truth.add(place, [x + wings[0], y + wings[1]]);
+        }
+    }
+    (second_order.count > 0).then(|| PositionReport {
+        worst_px: second_order.worst,
+        mean_px: second_order.mean(),
+        truth_worst_px: (truth.count > 0).then_some(truth.worst),
+        truth_mean_px: (truth.count > 0).then(|| truth.mean()),
+    })
 }
 
 /// Compares a shown picture with the truth.
@@ -431,8 +466,8 @@ pub fn compare(picture: &Picture, hold: &Picture, truth: &Truth, reached: &[bool
     let known: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| reached && counted(index)).collect();
     let missing: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| !reached && counted(index)).collect();
     let mask = truth.mask.as_deref();
-    let perceptual = |measure: fn(&Picture, &Picture) -> Option<f64>| {
-        perceptual.then(|| measure(&masked(picture, truth), &truth.picture)).flatten()
+    let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {
+        perceptual.then(|| measure(picture, &truth.picture, mask)).flatten()
     };
     TruthReport {
         psnr_db: metric::psnr_db(picture, &truth.picture, mask),
@@ -443,19 +478,6 @@ pub fn compare(picture: &Picture, hold: &Picture, truth: &Truth, reached: &[bool
         missing: missing.iter().filter(|&&missing| missing).count() as u64,
         missing_at_border: connected_with_border(&missing, truth.picture.width, truth.picture.height),
     }
-}
-
-/// The picture with the truth where it does not count.
-fn masked(picture: &Picture, truth: &Truth) -> Picture {
-    let mut masked = picture.clone();
-    if let Some(mask) = &truth.mask {
-        for ((pixel, &counts), &true_pixel) in masked.pixels.iter_mut().zip(mask).zip(&truth.picture.pixels) {
-            if !counts {
-                *pixel = true_pixel;
-            }
-        }
-    }
-    masked
 }
 
 /// How many of the set cells are connected with the border by set cells that share a side.

@@ -1,10 +1,18 @@
-//! The host simulator: scenes with exact truth, importers, the engine on a lent memory, metrics and reports.
+//! The host simulator of galpixmaps.
+//!
+//! An update comes from a built-in [`scene`] with exact truth or from a [`capture`]; the [`engine`] runs `galpix-core` over
+//! it; an [`experiment`] compares each frame with the truth and with sample-and-hold; [`metric`], [`film`] and `report`
+//! turn that into numbers, moving pictures and a page.
 
+pub mod capture;
 pub mod certificate;
+pub mod cli;
 pub mod engine;
+pub mod experiment;
 pub mod film;
 pub mod metric;
 pub mod picture;
+pub mod progress;
 pub mod report;
 pub mod scene;
 pub mod update;

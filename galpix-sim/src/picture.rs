@@ -40,8 +40,23 @@ impl Picture {
         Self { width, height, pixels }
     }
 
-    /// Writes the picture as an 8-bit PNG.
-    pub fn save_png(&self, path: &Path) -> image::ImageResult<()> {
-        image::save_buffer(path, self.bytes(), self.width as u32, self.height as u32, image::ColorType::Rgb8)
+    /// The picture as an 8-bit PNG.
+    pub fn png(&self) -> std::io::Result<Vec<u8>> {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        image::write_buffer_with_format(
+            &mut bytes,
+            self.bytes(),
+            self.width as u32,
+            self.height as u32,
+            image::ColorType::Rgb8,
+            image::ImageFormat::Png,
+        )
+        .map_err(std::io::Error::other)?;
+        Ok(bytes.into_inner())
+    }
+
+    /// Writes the picture as an 8-bit PNG, whole or not at all.
+    pub fn write_png(&self, path: &Path) -> std::io::Result<()> {
+        crate::report::write_atomically(path, &self.png()?)
     }
 }

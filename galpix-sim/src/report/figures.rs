@@ -41,6 +41,12 @@ fn position(story: &Story) -> String {
         lines.push(Line { name: "certified bound".into(), ink: Ink::Bound, stroke: Stroke::Dashed, points: bound });
         remark += " The bound covers the arithmetic; the snap adds at most half a pixel, as with any method.";
     }
+    let beyond =
+        |row: &Row| row.truth_error_px.zip(row.position_error_px).is_some_and(|(truth, path)| truth > path + 0.01);
+    if story.rows.iter().any(beyond) {
+        lines.push(line(story, "worst, true motion", Ink::Hold, Stroke::Solid, |row| row.truth_error_px));
+        remark += " The true motion is beyond second order here: what is left out of it no arithmetic can know.";
+    }
     lines.push(line(story, "mean measured", Ink::Known, Stroke::Dashed, |row| row.mean_position_error_px));
     lines.push(line(story, "worst measured", Ink::Galpix, Stroke::Solid, |row| row.position_error_px));
     let nothing = "The true motion is not known here.";

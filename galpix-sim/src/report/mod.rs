@@ -86,10 +86,12 @@ pub struct Row {
     pub psnr_hold_db: Option<f64>,
     /// As `psnr_db`, over the cells that a galpixel reached.
     pub psnr_known_db: Option<f64>,
-    /// Worst measured position error of a galpixel, pixels.
+    /// Worst measured position error of a galpixel against the exact second-order path, pixels.
     pub position_error_px: Option<f64>,
-    /// Mean position error, pixels.
+    /// Mean of the same, pixels.
     pub mean_position_error_px: Option<f64>,
+    /// Worst position error against the true motion, with what second order cannot know, pixels.
+    pub truth_error_px: Option<f64>,
     /// Cells that no galpixel reached.
     pub holes: u64,
     /// Holes that a rung of the fill ladder filled.

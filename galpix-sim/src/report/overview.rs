@@ -15,11 +15,11 @@ pub enum Standing {
 /// What one line of the overview says of a story.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
-    /// The last frame that was compared with a truth, else the last frame.
+    /// The last frame.
     pub frame: Option<u32>,
-    /// PSNR of galpix in that frame.
+    /// PSNR of galpix, mean over the frames that were compared with a truth.
     pub psnr_db: Option<f64>,
-    /// PSNR of sample-and-hold in that frame.
+    /// PSNR of sample-and-hold, mean over the same frames.
     pub psnr_hold_db: Option<f64>,
     /// The difference of the two.
     pub gain_db: Option<f64>,
@@ -29,7 +29,7 @@ pub struct Summary {
     pub bound_px: Option<f64>,
     /// How the measured errors lie to the bound, where both are known.
     pub standing: Option<Standing>,
-    /// Share of the display that was holes before filling, in that frame, per cent.
+    /// Share of the display that was holes before filling, mean over the frames, per cent.
     pub holes_percent: Option<f64>,
     /// The median over the frames.
     pub ns_per_galpixel: Option<f64>,
@@ -38,21 +38,20 @@ pub struct Summary {
 impl Summary {
     /// Of a whole story.
     pub fn of(story: &Story) -> Self {
-        let compared = |row: &&Row| row.psnr_db.is_some() || row.psnr_hold_db.is_some();
-        let last = story.rows.iter().rev().find(compared).or(story.rows.last());
-        let psnr_db = last.and_then(|row| row.psnr_db);
-        let psnr_hold_db = last.and_then(|row| row.psnr_hold_db);
+        let psnr_db = mean(finite(story, |row| row.psnr_db));
+        let psnr_hold_db = mean(finite(story, |row| row.psnr_hold_db));
         let (worst_px, standing) = against_bound(story);
         let cells = story.width as f64 * story.height as f64;
         Self {
-            frame: last.map(|row| row.frame),
+            frame: story.rows.last().map(|row| row.frame),
             psnr_db,
             psnr_hold_db,
             gain_db: psnr_db.zip(psnr_hold_db).map(|(galpix, hold)| galpix - hold),
             worst_px,
             bound_px: story.certificate.as_ref().map(|certificate| certificate.total_px),
             standing,
-            holes_percent: last.filter(|_| cells > 0.0).map(|row| 100.0 * row.holes as f64 / cells),
+            holes_percent: mean(story.rows.iter().map(|row| 100.0 * row.holes as f64 / cells))
+                .filter(|share| share.is_finite()),
             ns_per_galpixel: median(finite(story, |row| row.ns_per_galpixel).collect()),
         }
     }
@@ -90,6 +89,11 @@ fn finite(story: &Story, column: impl Fn(&Row) -> Option<f64>) -> impl Iterator<
     story.rows.iter().filter_map(column).filter(|value| value.is_finite())
 }
 
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
+    (count > 0.0).then(|| sum / count)
+}
+
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     let middle = values.len() / 2;
@@ -110,10 +114,10 @@ pub fn overview(report: &Report) -> String {
     let lines: String = stories.map(|((index, story), summary)| line(index, story, summary, widest)).collect();
     format!(
         "<section id=\"overview\"><h2>Overview</h2><div class=\"wide\"><table class=\"overview\"><thead><tr>\
-         <th>scene</th><th>frame</th><th>galpix</th><th>sample-and-hold</th><th>gain</th>\
+         <th>scene</th><th>frames</th><th>galpix</th><th>sample-and-hold</th><th>gain</th>\
          <th>worst position error</th><th>holes</th><th>ns a galpixel</th></tr></thead><tbody>{lines}</tbody></table></div>\
-         <p class=\"remark\">PSNR against the truth, in the last frame that has one; holes before filling, in the same \
-         frame. Position error before the snap, in the frames that the bound covers. Time: the median of all frames.</p>\
+         <p class=\"remark\">PSNR against the truth and holes before filling: means over the frames. Position error: the \
+         worst, against the exact second-order path, before the snap. Time: the median of all frames.</p>\
          </section>"
     )
 }

@@ -93,13 +93,14 @@ fn notes(story: &Story) -> String {
 /// A column of the table: heading, and what a row says there.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 14] = [
+const COLUMNS: [Column; 15] = [
     ("frame", |row| row.frame.to_string()),
     ("galpix dB", |row| figure(row.psnr_db, 2)),
     ("hold dB", |row| figure(row.psnr_hold_db, 2)),
     ("reached dB", |row| figure(row.psnr_known_db, 2)),
     ("worst px", |row| figure(row.position_error_px, 3)),
     ("mean px", |row| figure(row.mean_position_error_px, 3)),
+    ("truth px", |row| figure(row.truth_error_px, 3)),
     ("holes", |row| count(row.holes)),
     ("filled", |row| count(row.filled)),
     ("bullets", |row| count(row.bullets)),

@@ -184,13 +184,13 @@ fn the_script_comes_with_films_only() {
 }
 
 #[test]
-fn a_summary_is_of_the_last_frame_compared() {
+fn a_summary_is_of_the_frames_compared() {
     let mut story = story("pan", 4);
     (story.rows[3].psnr_db, story.rows[3].psnr_hold_db) = (None, None);
     let summary = Summary::of(&story);
-    assert_eq!((summary.frame, summary.psnr_db, summary.psnr_hold_db), (Some(3), Some(37.0), Some(27.0)));
+    assert_eq!((summary.frame, summary.psnr_db, summary.psnr_hold_db), (Some(4), Some(38.0), Some(28.0))); // means of 1 to 3
     assert_eq!(summary.gain_db, Some(10.0));
-    assert_eq!(summary.holes_percent, Some(15.0)); // 30 of 20 x 10
+    assert_eq!(summary.holes_percent, Some(12.5)); // mean of 10 to 40 of 20 x 10
     assert_eq!(summary.worst_px, Some(0.4)); // of all frames
     assert_eq!((summary.bound_px, summary.standing), (Some(0.84375), Some(Standing::Inside)));
     assert_eq!(summary.ns_per_galpixel, Some(2.5)); // median of 1, 2, 3, 4

@@ -1,0 +1,197 @@
+//! `galpix budget`.
+
+use clap::{Args, ValueEnum};
+use galpix_core::budget::{Bits, Component, Demand, Shave};
+use galpix_core::colour::Colour;
+use galpix_core::error::BudgetError;
+use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4, VelocityGray8};
+use galpix_core::record::Record;
+use serde::Serialize;
+
+use super::choices::RoundingChoice;
+use super::{CliError, print, print_json};
+use crate::certificate::Certificate;
+use crate::experiment::BudgetReport;
+
+/// Layouts by name.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum LayoutChoice {
+    /// x, y, z with velocity and acceleration, RGB888, 16-bit z
+    #[default]
+    Full,
+    /// Full with an 8-bit object tag
+    Tagged,
+    /// Tagged with shading inertia
+    Shaded,
+    /// x and y with velocity and acceleration, RGB565, 16-bit z
+    Flat565,
+    /// x and y with velocity only, RGB565, 16-bit z
+    Velocity565,
+    /// x and y with velocity only, 8-bit gray, 8-bit z
+    VelocityGray8,
+    /// x and y with velocity only, 4-bit gray, 4-bit z
+    VelocityGray4,
+}
+
+/// Arguments of `galpix budget`.
+#[derive(Debug, Default, Args)]
+pub struct Budget {
+    /// D, the extent of the display in pixels
+    #[arg(long, value_name = "PX", default_value_t = 1024)]
+    extent: u32,
+    /// tau_recog, the shortest recognisable time in frames
+    #[arg(long, value_name = "FRAMES", default_value_t = 8)]
+    recog: u32,
+    /// tau_prop, the frames to survive without an update
+    #[arg(long, value_name = "FRAMES", default_value_t = 16)]
+    prop: u32,
+    /// How positions are rounded
+    #[arg(long, value_enum, value_name = "ROUNDING", default_value_t)]
+    rounding: RoundingChoice,
+    /// Which lanes a galpixel carries
+    #[arg(long, value_enum, value_name = "LAYOUT", default_value_t)]
+    layout: LayoutChoice,
+    /// Bits to take off in x and y, for example velocity-int=1; may be given several times
+    #[arg(long, value_name = "FIELD=BITS", value_parser = shaving)]
+    shave: Vec<(ShavedField, u32)>,
+    /// Bits to take off in depth
+    #[arg(long, value_name = "FIELD=BITS", value_parser = shaving)]
+    shave_z: Vec<(ShavedField, u32)>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ShavedField {
+    PositionFrac,
+    VelocityInt,
+    VelocityFrac,
+    AccelerationInt,
+    AccelerationFrac,
+}
+
+fn shaving(text: &str) -> Result<(ShavedField, u32), String> {
+    let parsed = text.split_once('=').and_then(|(field, bits)| {
+        Some((ShavedField::from_str(field, true).ok()?, bits.parse::<u32>().ok().filter(|&bits| bits <= 32)?))
+    });
+    parsed.ok_or_else(|| {
+        "give FIELD=BITS with FIELD one of position-frac, velocity-int, velocity-frac, acceleration-int, \
+         acceleration-frac, and BITS from 0 to 32"
+            .to_owned()
+    })
+}
+
+fn shave(list: &[(ShavedField, u32)]) -> Shave {
+    let mut shave = Shave::default();
+    for &(field, bits) in list {
+        *match field {
+            ShavedField::PositionFrac => &mut shave.position_frac,
+            ShavedField::VelocityInt => &mut shave.velocity_int,
+            ShavedField::VelocityFrac => &mut shave.velocity_frac,
+            ShavedField::AccelerationInt => &mut shave.acceleration_int,
+            ShavedField::AccelerationFrac => &mut shave.acceleration_frac,
+        } += bits;
+    }
+    shave
+}
+
+#[derive(Serialize)]
+struct Printed {
+    #[serde(flatten)]
+    report: BudgetReport,
+    used_bits_per_galpixel: u32,
+    layout: &'static str,
+    rounding: &'static str,
+    depth: DepthReport,
+    certificate: Certificate,
+    keeps_one_pixel: bool,
+}
+
+#[derive(Serialize)]
+struct DepthReport {
+    stored_bits: u32,
+    bins_bits: u32,
+    position_frac_bits: u32,
+    velocity_int_bits: u32,
+    velocity_frac_bits: u32,
+    acceleration_int_bits: u32,
+    acceleration_frac_bits: u32,
+}
+
+impl Budget {
+    /// Prints the budget.
+    pub fn run(&self) -> Result<(), CliError> {
+        let printed = match self.layout {
+            LayoutChoice::Full => self.printed::<Full>("full"),
+            LayoutChoice::Tagged => self.printed::<Tagged>("tagged"),
+            LayoutChoice::Shaded => self.printed::<Shaded>("shaded"),
+            LayoutChoice::Flat565 => self.printed::<Flat565>("flat565"),
+            LayoutChoice::Velocity565 => self.printed::<Velocity565>("velocity565"),
+            LayoutChoice::VelocityGray8 => self.printed::<VelocityGray8>("velocity-gray8"),
+            LayoutChoice::VelocityGray4 => self.printed::<VelocityGray4>("velocity-gray4"),
+        }
+        .map_err(|error| CliError::Unusable(format!("this budget cannot exist: {error}")))?;
+        if self.json { print_json(&printed) } else { print(&text(&printed)) }
+    }
+
+    fn printed<L: Layout>(&self, layout: &'static str) -> Result<Printed, BudgetError> {
+        let demand = Demand { extent: self.extent, recog: self.recog, prop: self.prop };
+        let bits =
+            if L::LANES.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
+        let plane: Component = bits.x.shaved(shave(&self.shave))?;
+        let z = bits.z.shaved(shave(&self.shave_z))?;
+        let bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
+        let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
+        let rounding = self.rounding.into();
+        let certificate = Certificate::of(&record.scales[0], L::LANES.acceleration, rounding, self.prop);
+        Ok(Printed {
+            report: BudgetReport::of::<L>(demand, bits)?,
+            used_bits_per_galpixel: record.bits(),
+            layout,
+            rounding: rounding.name(),
+            depth: DepthReport {
+                stored_bits: u32::from(record.depth().bits),
+                bins_bits: bits.depth_int,
+                position_frac_bits: record.scales[2].position_frac,
+                velocity_int_bits: z.velocity_int,
+                velocity_frac_bits: z.velocity_frac,
+                acceleration_int_bits: z.acceleration_int,
+                acceleration_frac_bits: z.acceleration_frac,
+            },
+            keeps_one_pixel: certificate.keeps_one_pixel(),
+            certificate,
+        })
+    }
+}
+
+fn text(printed: &Printed) -> String {
+    let report = &printed.report;
+    let certificate = &printed.certificate;
+    let promise = if printed.keeps_one_pixel { "holds" } else { "does not hold" };
+    let rows = [
+        ("position, fraction", report.position_frac_bits.to_string(), "(11)"),
+        ("velocity, integer with sign", report.velocity_int_bits.to_string(), "(8)"),
+        ("velocity, fraction", report.velocity_frac_bits.to_string(), "(13)"),
+        ("acceleration, integer with sign", report.acceleration_int_bits.to_string(), "(9)"),
+        ("acceleration, fraction", report.acceleration_frac_bits.to_string(), "(12)"),
+        ("motion, bits a component", report.motion_bits_per_component.to_string(), "(14)"),
+        ("motion, bytes a galpixel", report.motion_bytes_per_galpixel.to_string(), "three components"),
+        ("stored, bytes a galpixel", report.stored_bytes_per_galpixel.to_string(), printed.layout),
+        ("of these bits in use", printed.used_bits_per_galpixel.to_string(), ""),
+    ];
+    let mut text = format!(
+        "D = {} px, tau_recog = {} frames, tau_prop = {} frames, x and y:\n",
+        report.extent, report.recog, report.prop
+    );
+    for (name, value, source) in rows {
+        text.push_str(&format!("  {name:<33}{value:>6}  {source}\n"));
+    }
+    text.push_str(&format!(
+        "certificate with {} rounding, worst case over all states up to tau_prop:\n  quantisation of r, v, a  {:.4} px\n  \
+         rounding drift           {:.4} px\n  total                    {:.4} px\nThe paper's promise of one pixel for {} frames \
+         {promise}. The snap to a cell, at most half a pixel, stands apart.",
+        printed.rounding, certificate.quantisation_px, certificate.drift_px, certificate.total_px, report.prop
+    ));
+    text
+}

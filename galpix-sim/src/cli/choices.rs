@@ -1,0 +1,148 @@
+//! Arguments that several commands share.
+
+use clap::{Args, ValueEnum};
+use galpix_core::fill::Rung;
+use galpix_core::rounding::Rounding;
+
+use crate::capture::{AccelerationPolicy, ImportOptions};
+use crate::experiment::Request;
+
+/// How positions are rounded.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum RoundingChoice {
+    /// Plain right shift
+    Truncate,
+    /// To nearest, halves upwards
+    Nearest,
+    /// By the frame counter read backwards
+    #[default]
+    LowDiscrepancy,
+}
+
+impl From<RoundingChoice> for Rounding {
+    fn from(choice: RoundingChoice) -> Self {
+        match choice {
+            RoundingChoice::Truncate => Self::Truncate,
+            RoundingChoice::Nearest => Self::Nearest,
+            RoundingChoice::LowDiscrepancy => Self::LowDiscrepancy,
+        }
+    }
+}
+
+/// What is put into holes. Each rung includes the cheaper ones it builds on.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum FillChoice {
+    /// Holes are shown black
+    None,
+    /// The display keeps showing what it showed there
+    Hold,
+    /// What was there stays as debris, without motion
+    Debris,
+    /// Holes inside of surfaces take the mean of their neighbours, the rest is debris
+    Bullet,
+    /// As bullet, and debris keeps its motion, one frame late
+    #[default]
+    Galdebris,
+    /// Integer push-pull (not built yet)
+    PushPull,
+    /// Metameric inpainting (not built yet)
+    Metamer,
+}
+
+impl FillChoice {
+    /// The rung of the engine, or one sentence on why there is none yet.
+    pub fn rung(self) -> Result<Rung, String> {
+        match self {
+            Self::None => Ok(Rung::None),
+            Self::Hold => Ok(Rung::Hold),
+            Self::Debris => Ok(Rung::Debris),
+            Self::Bullet => Ok(Rung::Bullet),
+            Self::Galdebris => Ok(Rung::Galdebris),
+            Self::PushPull | Self::Metamer => {
+                Err("--fill push-pull and metamer are not built yet: galdebris is the richest rung there is".to_owned())
+            }
+        }
+    }
+}
+
+/// What is done with accelerations of captures.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum AccelerationChoice {
+    /// As the capture gives them
+    #[default]
+    Given,
+    /// Left out
+    Off,
+    /// Limited so that they never outweigh the velocity
+    Clamp,
+    /// Smoothed over neighbours of the same surface
+    Smooth,
+}
+
+impl From<AccelerationChoice> for ImportOptions {
+    fn from(choice: AccelerationChoice) -> Self {
+        let acceleration = match choice {
+            AccelerationChoice::Given => AccelerationPolicy::AsGiven,
+            AccelerationChoice::Off => AccelerationPolicy::Off,
+            AccelerationChoice::Clamp => AccelerationPolicy::Clamp,
+            AccelerationChoice::Smooth => AccelerationPolicy::Smooth,
+        };
+        Self { acceleration }
+    }
+}
+
+/// How an update is extrapolated.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Extrapolation {
+    /// Frames to extrapolate [default: what the source is meant for]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: Option<u32>,
+    /// What is put into holes
+    #[arg(long, value_enum, value_name = "RUNG", default_value_t)]
+    pub fill: FillChoice,
+    /// Rounds of bullet filling: each closes one cell more from each side
+    #[arg(long, value_name = "ROUNDS", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
+    pub reach: u32,
+    /// How positions are rounded
+    #[arg(long, value_enum, value_name = "ROUNDING", default_value_t)]
+    pub rounding: RoundingChoice,
+    /// D, the extent of the display in pixels [default: the next power of two of the larger side]
+    #[arg(long, value_name = "PX")]
+    pub extent: Option<u32>,
+    /// tau_recog, the shortest recognisable time in frames [default: 8]
+    #[arg(long, value_name = "FRAMES")]
+    pub recog: Option<u32>,
+    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames]
+    #[arg(long, value_name = "FRAMES")]
+    pub prop: Option<u32>,
+    /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
+    #[arg(long, value_name = "PART", value_parser = part)]
+    pub edge_threshold: Option<f64>,
+    /// What is done with the accelerations of a capture
+    #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
+    pub acceleration: AccelerationChoice,
+}
+
+fn part(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(part) if (0.0..=8.0).contains(&part) => Ok(part),
+        _ => Err("give a number from 0 to 8".to_owned()),
+    }
+}
+
+impl Extrapolation {
+    /// The request that these arguments make.
+    pub fn request(&self) -> Result<Request, String> {
+        Ok(Request {
+            frames: self.frames,
+            extent: self.extent,
+            recog: self.recog,
+            prop: self.prop,
+            rounding: self.rounding.into(),
+            fill: self.fill.rung()?,
+            reach: self.reach,
+            edge_threshold: self.edge_threshold,
+            perceptual: true,
+        })
+    }
+}
