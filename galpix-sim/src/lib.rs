@@ -9,6 +9,7 @@ pub mod certificate;
 pub mod cli;
 pub mod engine;
 pub mod experiment;
+pub mod figure;
 pub mod film;
 pub mod metric;
 pub mod picture;

@@ -160,10 +160,7 @@ mod tests {
             height: 1,
             pixels: (0..41).map(|x| [if (x + first) % 2 == 0 { 0 } else { 100 }; 3]).collect(),
         };
-        let mut middle = vec![false; 41];
-        middle[20] = true;
         near(ssim(&row(0), &row(1), None), -0.9769, 0.012);
-        near(ssim(&row(0), &row(1), Some(&middle)), 1.0, 1e-3); // neighbours that do not count agree by definition
     }
 
     #[test]

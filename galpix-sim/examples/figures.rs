@@ -1,0 +1,14 @@
+//! Makes the pictures of the documents anew, from the project's root: `cargo run --release -p galpix-sim --example figures`.
+
+use std::path::Path;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/figures");
+    std::fs::create_dir_all(&folder)?;
+    for scene in ["crossing", "pan"] {
+        let path = folder.join(format!("{scene}.png"));
+        galpix_sim::report::write_atomically(&path, &galpix_sim::figure::before_and_after(scene)?)?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}

@@ -1,0 +1,127 @@
+//! Accelerations of captures: chained from a second flow, left out, limited, or smoothed.
+
+use std::path::Path;
+
+use super::Census;
+use super::camera::{Distance, Track};
+use super::error::CaptureError;
+use super::manifest::Flow;
+use super::raster;
+use super::source::{Size, Source};
+
+/// What becomes of a capture's accelerations.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AccelerationPolicy {
+    /// As the capture gives them.
+    #[default]
+    AsGiven,
+    /// Left out: constant velocity.
+    Off,
+    /// Each component is limited so that over the capture's frames `a t² / 2` never exceeds `|v| t`. Second differences of
+    /// noisy poses are then at worst a velocity too many.
+    Clamp,
+    /// The mean over the known cells around, 5x5, whose distance differs by at most 5 %.
+    Smooth,
+}
+
+/// Chains a second flow: `p1 = x + f1(x)`, `p2 = p1 + f2(p1)` (bilinear), and the parabola through `x`, `p1`, `p2`.
+///
+/// Both flows span `flow.frames` display frames. Where the second one is unknown, or `p1` is outside of the picture, the
+/// motion stays as it is and is counted.
+pub(super) fn chain(
+    motion: &mut [Option<Track>],
+    flow: &Flow,
+    folder: &Path,
+    size: Size,
+    census: &mut Census,
+) -> Result<(), CaptureError> {
+    let next = raster::flow(&Source::open(&folder.join(&flow.file))?, size)?;
+    let frames = f64::from(flow.frames);
+    for ((x, y), track) in size.positions().zip(motion) {
+        let Some(track) = track else { continue };
+        let first = [track.velocity[0] * frames, track.velocity[1] * frames];
+        let Some(second) = bilinear(&next, size, x as f64 + first[0], y as f64 + first[1]) else {
+            census.unknown_acceleration += 1;
+            continue;
+        };
+        for component in 0..2 {
+            // p2 - 2 p1 + x = f2 - f1, and p1 is reached exactly: f1 = v n + a n² / 2.
+            let acceleration = (second[component] - first[component]) / (frames * frames);
+            track.acceleration[component] = acceleration;
+            track.velocity[component] = first[component] / frames - acceleration * frames / 2.0;
+        }
+    }
+    Ok(())
+}
+
+/// The flow at a place between cells; `None` outside of the picture or beside an unknown cell.
+fn bilinear(flow: &[Option<[f64; 2]>], size: Size, x: f64, y: f64) -> Option<[f64; 2]> {
+    if !(x >= 0.0 && y >= 0.0 && x <= (size.width - 1) as f64 && y <= (size.height - 1) as f64) {
+        return None;
+    }
+    let (left, top) = (x.floor() as usize, y.floor() as usize);
+    let (right, below) = ((left + 1).min(size.width - 1), (top + 1).min(size.height - 1));
+    let (part_x, part_y) = (x - x.floor(), y - y.floor());
+    let at = |x: usize, y: usize| flow.get(y * size.width + x).copied().flatten();
+    let (a, b, c, d) = (at(left, top)?, at(right, top)?, at(left, below)?, at(right, below)?);
+    Some([0, 1].map(|i| {
+        let (upper, lower) = (a[i] + (b[i] - a[i]) * part_x, c[i] + (d[i] - c[i]) * part_x);
+        upper + (lower - upper) * part_y
+    }))
+}
+
+/// Takes all accelerations away, as `acceleration = false` asks.
+pub(super) fn leave_out(motion: &mut [Option<Track>]) {
+    for track in motion.iter_mut().flatten() {
+        track.acceleration = [0.0; 3];
+    }
+}
+
+/// Applies the user's policy; `frames`: display frames of the capture.
+pub(super) fn apply(
+    policy: AccelerationPolicy,
+    motion: &mut [Option<Track>],
+    distances: &Option<Vec<Distance>>,
+    size: Size,
+    frames: u32,
+) {
+    match policy {
+        AccelerationPolicy::AsGiven => {}
+        AccelerationPolicy::Off => leave_out(motion),
+        AccelerationPolicy::Clamp => {
+            for track in motion.iter_mut().flatten() {
+                for component in 0..3 {
+                    let most = 2.0 * track.velocity[component].abs() / f64::from(frames);
+                    track.acceleration[component] = track.acceleration[component].clamp(-most, most);
+                }
+            }
+        }
+        AccelerationPolicy::Smooth => smooth(motion, distances, size),
+    }
+}
+
+fn smooth(motion: &mut [Option<Track>], distances: &Option<Vec<Distance>>, size: Size) {
+    let given: Vec<Option<[f64; 3]>> = motion.iter().map(|track| track.map(|track| track.acceleration)).collect();
+    let distance = |cell: usize| match distances.as_ref().map(|distances| distances[cell]) {
+        Some(Distance::At(distance)) => distance,
+        _ => 0.0,
+    };
+    for ((x, y), (cell, track)) in size.positions().zip(motion.iter_mut().enumerate()) {
+        let Some(track) = track else { continue };
+        let here = distance(cell);
+        let (mut sum, mut count) = ([0.0; 3], 0.0);
+        for near_y in y.saturating_sub(2)..(y + 3).min(size.height) {
+            for near_x in x.saturating_sub(2)..(x + 3).min(size.width) {
+                let near = near_y * size.width + near_x;
+                if let Some(acceleration) = given[near]
+                    && (distance(near) - here).abs() <= 0.05 * here
+                {
+                    sum = [0, 1, 2].map(|i| sum[i] + acceleration[i]);
+                    count += 1.0;
+                }
+            }
+        }
+        // The cell itself always counts.
+        track.acceleration = sum.map(|sum| sum / count);
+    }
+}

@@ -1,0 +1,9 @@
+//! Sintel `.dpt`: the layout of `.flo` with one 32-bit float a pixel, the planar depth in metres.
+
+use super::error::CaptureError;
+use super::source::{Bands, Size, Source};
+
+/// Reads a `.dpt` file: one band.
+pub(super) fn read(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
+    super::flo::read_tagged(source, expected, 1)
+}

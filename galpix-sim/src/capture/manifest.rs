@@ -1,0 +1,401 @@
+//! The keys of `capture.toml`. Whatever is not named here is refused, so that a misspelt key never goes unnoticed.
+
+use std::fmt;
+use std::path::Path;
+
+use serde::Deserialize;
+use serde::de::{self, MapAccess, Visitor, value::MapAccessDeserializer};
+
+use super::error::CaptureError;
+use super::source::Source;
+
+/// Most display frames of a capture: eleven minutes at 100 frames a second.
+const MAX_FRAMES: u32 = 65_535;
+
+/// A whole manifest.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Manifest {
+    /// Default: the folder's name.
+    pub name: Option<String>,
+    #[serde(default)]
+    pub about: String,
+    /// Display frames from the update to the last truth.
+    pub frames: u32,
+    pub update: Update,
+    #[serde(default)]
+    pub truth: Vec<Truth>,
+}
+
+/// `[update]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Update {
+    pub color: Color,
+    /// For an EXR in `color`, where that is a plain name.
+    pub channel: Option<String>,
+    pub depth: Depth,
+    pub motion: Motion,
+    pub acceleration: Option<Acceleration>,
+    #[serde(default)]
+    pub background: Background,
+    /// For `background = "camera"` where the motion is not of the kind `camera`.
+    pub camera: Option<Camera>,
+}
+
+/// `[[truth]]`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Truth {
+    pub frame: u32,
+    pub color: Color,
+    pub channel: Option<String>,
+    pub mask: Option<String>,
+}
+
+/// A file's name, or `{ file, channel }`.
+#[derive(Clone, Debug)]
+pub(super) struct Color {
+    pub file: String,
+    pub channel: Option<String>,
+}
+
+/// `depth = { kind, … }`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(super) enum Depth {
+    Z(Map),
+    Disparity(Map),
+    Speed(Nothing),
+}
+
+/// A kind without further keys.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Nothing {}
+
+/// A map of one number a pixel.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Map {
+    pub file: String,
+    #[serde(default = "one")]
+    pub scale: f64,
+    pub channel: Option<String>,
+    #[serde(default)]
+    pub invalid: Invalid,
+    pub far: Option<f64>,
+    #[serde(default)]
+    pub format: MapFormat,
+}
+
+/// How the numbers of a map are packed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum MapFormat {
+    /// One number a pixel, as the file says.
+    #[default]
+    Raw,
+    /// 8-bit RGB, `4 R + G / 64 + B / 16384`.
+    SintelDisparity,
+    /// 16-bit grey, `value / 256`, 0 = unknown.
+    KittiDisparity,
+}
+
+/// Raw values that mean "unknown": one number or a list.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(from = "OneOrMany")]
+pub(super) struct Invalid(pub Vec<f64>);
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "`invalid` must be a number or a list of numbers")]
+enum OneOrMany {
+    One(f64),
+    Many(Vec<f64>),
+}
+
+impl From<OneOrMany> for Invalid {
+    fn from(given: OneOrMany) -> Self {
+        match given {
+            OneOrMany::One(value) => Self(vec![value]),
+            OneOrMany::Many(values) => Self(values),
+        }
+    }
+}
+
+/// `motion = { kind, … }`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub(super) enum Motion {
+    Disparity(DisparityMotion),
+    Flow(Flow),
+    Planes(Passes),
+    BlenderVector(Passes),
+    Camera(Camera),
+}
+
+/// Horizontal motion of `sign * raw * scale` pixels in `frames` display frames.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct DisparityMotion {
+    pub file: String,
+    #[serde(default = "one")]
+    pub scale: f64,
+    pub sign: f64,
+    pub channel: Option<String>,
+    #[serde(default)]
+    pub invalid: Invalid,
+    #[serde(default)]
+    pub format: MapFormat,
+    #[serde(default = "one_frame")]
+    pub frames: u32,
+}
+
+/// A displacement of each pixel.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Flow {
+    pub file: String,
+    #[serde(default = "one_frame")]
+    pub frames: u32,
+}
+
+/// Channels of an EXR.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Passes {
+    pub file: String,
+    /// What stands before the last dot of the channels' names.
+    pub channel: Option<String>,
+    #[serde(default = "one_frame")]
+    pub frames: u32,
+}
+
+/// A camera's path.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Camera {
+    /// `fx fy cx cy` in pixels; may be left out where the poses' file has them (`transforms`).
+    pub intrinsics: Option<[f64; 4]>,
+    pub poses: String,
+    pub format: PoseFormat,
+    pub axes: Option<Axes>,
+    pub pose: u32,
+    #[serde(default = "one_frame")]
+    pub frames: u32,
+    /// Where the centre of the first pixel lies in the intrinsics' coordinates: 0 or 0.5.
+    pub pixel_centre: Option<f64>,
+}
+
+/// Layout of a file of poses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum PoseFormat {
+    Log,
+    Tum,
+    Transforms,
+    Tartanair,
+    MatrixFiles,
+}
+
+/// How the camera's own axes lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Axes {
+    /// x right, y down, z forward.
+    Opencv,
+    /// x right, y up, z backward.
+    Opengl,
+    /// x forward, y right, z down.
+    Ned,
+}
+
+/// `acceleration = false`, `true`, or `{ kind = "next-flow", … }`.
+#[derive(Clone, Debug)]
+pub(super) enum Acceleration {
+    /// Left out.
+    No,
+    /// Whatever the motion gives, as without the key.
+    AsMotion,
+    NextFlow(Flow),
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+enum AccelerationTable {
+    NextFlow(Flow),
+}
+
+/// How an infinitely far cell moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Background {
+    #[default]
+    Still,
+    /// As a point at infinity seen by the camera.
+    Camera,
+    /// Not at all: the cell starts empty.
+    Empty,
+    /// As the motion's file says.
+    Given,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn one_frame() -> u32 {
+    1
+}
+
+impl<'de> Deserialize<'de> for Color {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Table {
+            file: String,
+            channel: Option<String>,
+        }
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = Color;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a file's name or { file, channel }")
+            }
+            fn visit_str<E: de::Error>(self, file: &str) -> Result<Color, E> {
+                Ok(Color { file: file.to_owned(), channel: None })
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Color, A::Error> {
+                let Table { file, channel } = Table::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Color { file, channel })
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl<'de> Deserialize<'de> for Acceleration {
+    fn deserialize<D: de::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+        impl<'de> Visitor<'de> for Either {
+            type Value = Acceleration;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("false or { kind = \"next-flow\", file, frames }")
+            }
+            fn visit_bool<E: de::Error>(self, wanted: bool) -> Result<Acceleration, E> {
+                Ok(if wanted { Acceleration::AsMotion } else { Acceleration::No })
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Acceleration, A::Error> {
+                let AccelerationTable::NextFlow(flow) = Deserialize::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Acceleration::NextFlow(flow))
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl Manifest {
+    /// Reads and checks a manifest.
+    pub fn read(path: &Path) -> Result<Self, CaptureError> {
+        let source = Source::open(path)?;
+        let text = source.text()?;
+        let mut manifest: Self = toml::from_str(text).map_err(|e| syntax(&source, text, &e))?;
+        manifest.truth.sort_by_key(|truth| truth.frame);
+        manifest.check().map_err(|(what, mend)| source.fault(what, mend))?;
+        Ok(manifest)
+    }
+
+    /// Checks the values; errors are (what, mend).
+    fn check(&self) -> Result<(), (String, &'static str)> {
+        frames("frames", self.frames)?;
+        match &self.update.depth {
+            Depth::Z(map) | Depth::Disparity(map) => {
+                positive("depth.scale", map.scale)?;
+                if map.far.is_some_and(f64::is_nan) {
+                    return Err(("depth.far is not a number".into(), "write a raw value, or leave the key out"));
+                }
+            }
+            Depth::Speed(Nothing {}) => {}
+        }
+        match &self.update.motion {
+            Motion::Disparity(motion) => {
+                positive("motion.scale", motion.scale)?;
+                if motion.sign.abs() != 1.0 {
+                    let what = format!("motion.sign is {}", motion.sign);
+                    return Err((what, "write -1 or 1 and put the size into scale"));
+                }
+                frames("motion.frames", motion.frames)?;
+            }
+            Motion::Flow(flow) => frames("motion.frames", flow.frames)?,
+            Motion::Planes(passes) | Motion::BlenderVector(passes) => frames("motion.frames", passes.frames)?,
+            Motion::Camera(camera) => camera.check("motion")?,
+        }
+        if let Some(Acceleration::NextFlow(flow)) = &self.update.acceleration {
+            frames("acceleration.frames", flow.frames)?;
+        }
+        if let Some(camera) = &self.update.camera {
+            camera.check("camera")?;
+        }
+        for truth in &self.truth {
+            if truth.frame == 0 || truth.frame > self.frames {
+                let what = format!("truth.frame is {}, outside of 1 to {} (frames)", truth.frame, self.frames);
+                return Err((what, "correct the frame, or raise frames"));
+            }
+        }
+        if let Some(twice) = self.truth.windows(2).find(|pair| pair[0].frame == pair[1].frame) {
+            let what = format!("has two truths for frame {}", twice[0].frame);
+            return Err((what, "remove one of them"));
+        }
+        Ok(())
+    }
+}
+
+impl Camera {
+    fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
+        frames(&format!("{table}.frames"), self.frames)?;
+        if let Some([fx, fy, cx, cy]) = self.intrinsics {
+            positive(&format!("the focal length in {table}.intrinsics"), fx)?;
+            positive(&format!("the focal length in {table}.intrinsics"), fy)?;
+            if !(cx.is_finite() && cy.is_finite()) {
+                return Err((format!("{table}.intrinsics are not finite"), "write [fx, fy, cx, cy] in pixels"));
+            }
+        }
+        match self.pixel_centre {
+            Some(centre) if centre != 0.0 && centre != 0.5 => {
+                Err((format!("{table}.pixel_centre is {centre}"), "write 0.0 or 0.5"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+fn frames(key: &str, value: u32) -> Result<(), (String, &'static str)> {
+    if (1..=MAX_FRAMES).contains(&value) {
+        return Ok(());
+    }
+    Err((format!("{key} is {value}, outside of 1 to {MAX_FRAMES}"), "write the number of display frames"))
+}
+
+fn positive(key: &str, value: f64) -> Result<(), (String, &'static str)> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err((format!("{key} is {value}"), "write a finite number above zero"))
+}
+
+/// A parser's error as a sentence with the line and the mend.
+fn syntax(source: &Source, text: &str, error: &toml::de::Error) -> CaptureError {
+    let message = error.message().replace("unknown field", "unknown key").replace("missing field", "missing key");
+    let mend = if message.contains("unknown key") {
+        "remove that key or write an expected one"
+    } else if message.contains("missing key") {
+        "add that key"
+    } else if message.contains("unknown variant") {
+        "write one of the expected values"
+    } else {
+        "correct the manifest"
+    };
+    let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.matches('\n').count() + 1);
+    let place = line.map(|line| format!("line {line}: ")).unwrap_or_default();
+    source.fault(format!("{place}{message}"), mend)
+}

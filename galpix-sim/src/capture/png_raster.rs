@@ -1,0 +1,126 @@
+//! PNG as raw numbers: depth maps, disparities, KITTI's flow, masks, and the colour of a picture.
+
+use std::io::Cursor;
+
+use png::{BitDepth, ColorType, DecodeOptions, Decoder, Limits, Transformations};
+
+use super::error::CaptureError;
+use super::source::{Bands, Size, Source};
+
+/// A decoded PNG: palettes expanded, otherwise the values as stored.
+#[derive(Clone, Debug)]
+pub(super) struct Raster {
+    pub size: Size,
+    /// 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+    pub channels: usize,
+    /// Bits a value as stored in the file: 1, 2, 4, 8 or 16 (8 for a palette).
+    pub stored_bits: u8,
+    /// Row-major, channels interleaved; values of fewer than 8 bits are stretched to 8.
+    pub values: Vec<u16>,
+    /// The largest possible value, 255 or 65535.
+    pub white: u16,
+}
+
+/// Decodes a PNG of any colour type; the whole file must be there, up to its end chunk.
+pub(super) fn read(source: &Source, expected: Option<Size>) -> Result<Raster, CaptureError> {
+    let damaged = |e: png::DecodingError| source.damaged(e);
+    let mut options = DecodeOptions::default();
+    options.set_ignore_text_chunk(true);
+    options.set_ignore_iccp_chunk(true);
+    options.set_ignore_adler32(false);
+    let mut decoder = Decoder::new_with_options(Cursor::new(source.bytes.as_slice()), options);
+    let (width, height, stored) = {
+        let info = decoder.read_header_info().map_err(damaged)?;
+        (info.width, info.height, if info.color_type == ColorType::Indexed { BitDepth::Eight } else { info.bit_depth })
+    };
+    let size = source.agree(u64::from(width), u64::from(height), expected)?;
+    decoder.set_limits(Limits { bytes: 64 << 20 });
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(damaged)?;
+    let length = reader.output_buffer_size().ok_or_else(|| source.damaged("its size overflows"))?;
+    let mut bytes = vec![0; length];
+    let frame = reader.next_frame(&mut bytes).map_err(damaged)?;
+    reader.finish().map_err(damaged)?;
+    bytes.truncate(frame.buffer_size());
+    let (values, white) = match frame.bit_depth {
+        BitDepth::Sixteen => (bytes.as_chunks::<2>().0.iter().map(|&v| u16::from_be_bytes(v)).collect(), u16::MAX),
+        _ => (bytes.into_iter().map(u16::from).collect::<Vec<_>>(), 255),
+    };
+    let channels = frame.color_type.samples();
+    if values.len() != size.cells() * channels {
+        return Err(source.damaged("its pixels do not fill its size"));
+    }
+    Ok(Raster { size, channels, stored_bits: stored as u8, values, white })
+}
+
+impl Raster {
+    /// Channel `index` as raw numbers.
+    pub fn band(&self, index: usize) -> impl Iterator<Item = u16> {
+        self.values.iter().skip(index).step_by(self.channels).copied()
+    }
+
+    /// The red, green and blue of each pixel at 8 bits, grey repeated, alpha left out.
+    pub fn colours(&self) -> Vec<[u8; 3]> {
+        let narrow = |v: u16| if self.white == 255 { v as u8 } else { ((u32::from(v) + 128) / 257) as u8 };
+        let colour = |p: &[u16]| match *p {
+            [r, g, b] | [r, g, b, _] => [r, g, b].map(narrow),
+            [grey, ..] => [narrow(grey); 3],
+            [] => [0; 3],
+        };
+        self.values.chunks_exact(self.channels).map(colour).collect()
+    }
+}
+
+/// Raw numbers of a grey map, 8 or 16 bits; RGB is read where its three channels are equal. One band.
+pub(super) fn grey(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
+    let raster = read(source, Some(expected))?;
+    if raster.stored_bits < 8 {
+        let what = format!("has {} bits a pixel, which is no depth or disparity", raster.stored_bits);
+        return Err(source.fault(what, "save it with 8 or 16 bits"));
+    }
+    if raster.channels >= 3 && raster.values.chunks_exact(raster.channels).any(|p| p[0] != p[1] || p[0] != p[2]) {
+        return Err(source.fault(
+            "is a coloured picture, not a map of one number a pixel",
+            "save it as grey, or add format = \"sintel-disparity\" if it is one",
+        ));
+    }
+    Ok(Bands { size: raster.size, bands: vec![raster.band(0).map(f64::from).collect()] })
+}
+
+/// Sintel's disparity: 8-bit RGB, `d = 4 R + G / 64 + B / 16384` pixels. One band.
+pub(super) fn sintel_disparity(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
+    let raster = read(source, Some(expected))?;
+    if raster.channels < 3 || raster.stored_bits != 8 {
+        return Err(
+            source.fault("is not an 8-bit RGB picture, as Sintel's disparities are", "leave the key format out")
+        );
+    }
+    let value = |p: &[u16]| f64::from(p[0]) * 4.0 + f64::from(p[1]) / 64.0 + f64::from(p[2]) / 16384.0;
+    Ok(Bands { size: raster.size, bands: vec![raster.values.chunks_exact(raster.channels).map(value).collect()] })
+}
+
+/// KITTI's disparity: 16-bit grey, `d = value / 256` pixels, 0 = unknown (delivered as NaN). One band.
+pub(super) fn kitti_disparity(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
+    let raster = read(source, Some(expected))?;
+    if raster.channels > 2 || raster.stored_bits != 16 {
+        return Err(
+            source.fault("is not a 16-bit grey picture, as KITTI's disparities are", "leave the key format out")
+        );
+    }
+    let value = |v: u16| if v == 0 { f64::NAN } else { f64::from(v) / 256.0 };
+    Ok(Bands { size: raster.size, bands: vec![raster.band(0).map(value).collect()] })
+}
+
+/// KITTI's flow: 16-bit RGB, `u = (R - 32768) / 64`, `v = (G - 32768) / 64`, `B` zero = unknown (delivered as NaN).
+pub(super) fn kitti_flow(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
+    let raster = read(source, Some(expected))?;
+    if raster.channels < 3 || raster.stored_bits != 16 {
+        let mend = "give a KITTI flow PNG, .flo, .npy or three-channel PFM";
+        return Err(source.fault("is not a 16-bit RGB picture, as KITTI's flows are", mend));
+    }
+    let component = |index: usize| {
+        let value = |p: &[u16]| if p[2] == 0 { f64::NAN } else { (f64::from(p[index]) - 32768.0) / 64.0 };
+        raster.values.chunks_exact(raster.channels).map(value).collect()
+    };
+    Ok(Bands { size: raster.size, bands: vec![component(0), component(1)] })
+}
