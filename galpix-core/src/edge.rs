@@ -75,9 +75,9 @@ pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32
             let last = grid.width() - 1;
             let cells = if x == 0 || x == last { 1 } else { (last - x).min(RUN) };
             let (left, right) = (x.saturating_sub(1), (x + 1).min(last));
-            let flags = flags(front, threshold, cells, [row + x, row + left, row + right, up + x, down + x]);
+            let (flags, marked) = flags(front, threshold, cells, [row + x, row + left, row + right, up + x, down + x]);
             set(edges, row + x, flags);
-            count += flags.count_ones();
+            count += marked;
             x += cells;
         }
         up = row;
@@ -85,10 +85,15 @@ pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32
     count
 }
 
-/// The flags of up to [`RUN`] cells, the first in the lowest bit. `places`: the first cell, and its neighbours to the
+/// The flags of up to [`RUN`] cells, the first in the lowest bit, and how many are set. `places`: the first cell, and its neighbours to the
 /// left, right, above and below.
 #[inline(always)]
-fn flags<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: i32, cells: u32, places: [u32; 5]) -> u32 {
+fn flags<L: Layout, B: Budget<L>>(
+    front: &Galpixmap<'_, L, B>,
+    threshold: i32,
+    cells: u32,
+    places: [u32; 5],
+) -> (u32, u32) {
     let mut keys = [[0; RUN as usize]; 5];
     for (keys, place) in keys.iter_mut().zip(places) {
         for (to, key) in keys.iter_mut().zip(front.keys(place as usize..(place + cells) as usize)) {
@@ -96,15 +101,19 @@ fn flags<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: i32, c
         }
     }
     let [z0, left, right, up, down] = &keys;
-    let mut flags = 0;
-    for lane in 0..RUN as usize {
+    let (mut flags, mut count) = (0, 0);
+    for lane in 0..RUN {
+        let mask = (lane < cells) as u32;
+        let lane = lane as usize;
         // Class 0 is a galpixel, and the class stands above the depth.
         let others = front.class_of(z0[lane] | left[lane] | right[lane] | up[lane] | down[lane]);
         let [z0, left, right, up, down] = [z0, left, right, up, down].map(|keys| keys[lane] as i32);
         let source = laplacian(z0, left, right, up, down);
-        flags |= u32::from(others != 0 || source > threshold || source < -threshold) << lane;
+        let flag = u32::from(others != 0 || source > threshold || source < -threshold) & mask;
+        flags |= flag << lane;
+        count += flag;
     }
-    if cells < RUN { flags & ((1 << cells) - 1) } else { flags }
+    (flags, count)
 }
 
 /// Sets the bits of `flags` from `cell` on.

@@ -15,7 +15,7 @@ use crate::edge::on_edge;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::record::{Record, Words};
+use crate::record::{Field, Record, Words};
 use crate::resolve::NOBODY;
 use crate::tally::Tally;
 
@@ -41,11 +41,15 @@ pub enum Rung {
     /// late, and one more each time.
     #[default]
     Galdebris,
+    /// Bullet holes are filled; what was just unobscured continues, along its row, the farther of the two surfaces beside
+    /// it, and moves with it. Where a whole row is unobscured, as galdebris. A cell of which nothing was ever known keeps
+    /// its colour, as with every rung.
+    Extend,
 }
 
 impl Rung {
     /// All of them, from cheap to rich.
-    pub const ALL: [Self; 5] = [Self::None, Self::Hold, Self::Debris, Self::Bullet, Self::Galdebris];
+    pub const ALL: [Self; 6] = [Self::None, Self::Hold, Self::Debris, Self::Bullet, Self::Galdebris, Self::Extend];
 
     /// The name on the command line.
     #[must_use]
@@ -56,13 +60,14 @@ impl Rung {
             Self::Debris => "debris",
             Self::Bullet => "bullet",
             Self::Galdebris => "galdebris",
+            Self::Extend => "extend",
         }
     }
 
     /// Whether this rung needs to know who won each cell, and the edge map.
     #[must_use]
     pub const fn tells_surfaces(self) -> bool {
-        matches!(self, Self::Bullet | Self::Galdebris)
+        matches!(self, Self::Bullet | Self::Galdebris | Self::Extend)
     }
 }
 
@@ -99,17 +104,15 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     /// Visits all holes; in the last round none is left undecided.
     fn round(&mut self, round: u32, last: bool) {
         let grid = *self.back.grid();
-        for (y, &row) in grid.starts().iter().enumerate() {
+        for (y, &row) in (0..).zip(grid.starts()) {
             let mut x = 0;
             while x < grid.width() {
                 let run = (grid.width() - x).min(RUN);
-                let cells = (row + x) as usize..(row + x + run) as usize;
                 // Most runs have no hole: look at all of a run before looking at any of its cells.
-                let empty = |key| self.back.class_of(key) == Class::Empty as u32;
-                if self.back.keys(cells).fold(false, |holes, key| holes | empty(key)) {
+                if self.back.empties(row + x, run) > 0 {
                     for x in x..x + run {
                         if self.back.class(row + x) == Class::Empty {
-                            self.hole(row + x, x as i32, y as i32, round, last);
+                            self.hole(row, x, y, round, last);
                         }
                     }
                 }
@@ -118,38 +121,58 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
         }
     }
 
-    fn hole(&mut self, cell: u32, x: i32, y: i32, round: u32, last: bool) {
-        if self.rung.tells_surfaces()
-            && let Some(words) = self.bullet(x, y, round)
-        {
-            self.back.put(cell, &words);
-            if let Some(winner) = self.winners.get_mut(cell as usize) {
-                *winner = FILLED + round;
-            }
-            self.tally.holes += 1;
-            self.tally.bullets += 1;
-        } else if last {
-            let words = self.unobscured(cell);
-            self.back.put(cell, &words);
-            if let Some(winner) = self.winners.get_mut(cell as usize) {
-                *winner = NOBODY;
-            }
-            self.tally.holes += 1;
+    fn hole(&mut self, row: u32, x: u32, y: i32, round: u32, last: bool) {
+        let cell = row + x;
+        let bullet = if self.rung.tells_surfaces() { self.bullet(x as i32, y, round) } else { None };
+        let (words, winner) = match bullet {
+            Some(words) => (words, FILLED + round),
+            None if last => (self.unobscured(row, x), NOBODY),
+            None => return,
+        };
+        self.tally.holes += 1;
+        self.tally.bullets += (winner != NOBODY) as u32;
+        self.back.put(cell, &words);
+        if let Some(to) = self.winners.get_mut(cell as usize) {
+            *to = winner;
         }
     }
 
+    /// The farther of the two surfaces at the ends of the run of holes that a cell of a row lies in.
+    ///
+    /// Cells to the left are decided already: what lies there either arrived, or is a fill that was itself taken from the
+    /// end of this run; the right end is looked up. So each cell of a run has the same answer.
+    fn beside(&self, row: u32, x: u32) -> Option<Words> {
+        let record = self.back.record();
+        let left = if x > 0 { self.back.words_at(row + x - 1) } else { None };
+        if let Some(left) = left
+            && record.class().unsigned(&left) == Class::JustUnobscured as u32
+        {
+            return Some(left);
+        }
+        let width = self.back.grid().width();
+        let right = (x + 1..width).find(|&x| self.back.class(row + x) != Class::Empty);
+        let right = right.and_then(|x| self.back.words_at(row + x));
+        let farther = match (left, right) {
+            (Some(left), Some(right)) if record.depth().unsigned(&right) > record.depth().unsigned(&left) => right,
+            (Some(left), _) => left,
+            (None, right) => right?,
+        };
+        Some(farther)
+    }
+
     /// What the rung puts into a cell that is no bullet hole.
-    fn unobscured(&mut self, cell: u32) -> Words {
+    fn unobscured(&mut self, row: u32, x: u32) -> Words {
         let record = self.front.record();
-        let before = self.front.words_at(cell).unwrap_or_default();
-        let mut words: Words = Default::default();
+        let before = self.front.words_at(row + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
-        if self.rung == Rung::Galdebris && known {
-            words = before;
+        if self.rung >= Rung::Galdebris && known {
+            let beside = if self.rung == Rung::Extend { self.beside(row, x) } else { None };
+            let mut words = beside.unwrap_or(before);
             record.class().set(&mut words, Class::JustUnobscured as u32);
             self.tally.galdebris += 1;
             return words;
         }
+        let mut words: Words = Default::default();
         if self.rung != Rung::None {
             record.colour().set(&mut words, record.colour().unsigned(&before));
         }
@@ -167,67 +190,78 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
 
     /// The mean of the neighbours that lie inside a surface, if there are any.
     fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
-        let sides = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
-        let corners = [(x - 1, y - 1), (x + 1, y + 1), (x + 1, y - 1), (x - 1, y + 1)];
-        self.mean(sides, round).or_else(|| self.mean(corners, round))
+        let inside = |dx: i32, dy: i32| self.inside(x + dx, y + dy, round);
+        self.mean(inside(-1, 0), inside(1, 0), inside(0, -1), inside(0, 1))
+            .or_else(|| self.mean(inside(-1, -1), inside(1, 1), inside(1, -1), inside(-1, 1)))
     }
 
-    /// The mean of two pairs of neighbours that face each other: 0 and 1, 2 and 3.
-    fn mean(&self, places: [(i32, i32); 4], round: u32) -> Option<Words> {
-        let record = self.back.record();
-        let inside = places.map(|(x, y)| self.inside(x, y, round));
-        match inside {
-            [Some(a), Some(b), Some(c), Some(d)] => Some(mean4::<L>(record, [a, b, c, d])),
-            [Some(a), Some(b), _, _] | [_, _, Some(a), Some(b)] => Some(mean2::<L>(record, [a, b])),
-            [a, b, c, d] => match (a.or(b), c.or(d)) {
-                (Some(a), Some(c)) => Some(mean2::<L>(record, [a, c])),
-                (one, other) => one.or(other),
+    /// The mean of two pairs of neighbours that face each other: `a` and `b`, `c` and `d`.
+    #[inline(always)]
+    fn mean(&self, a: Option<u32>, b: Option<u32>, c: Option<u32>, d: Option<u32>) -> Option<Words> {
+        match (a, b, c, d) {
+            (Some(a), Some(b), Some(c), Some(d)) => self.mean4(a, b, c, d),
+            (Some(a), Some(b), _, _) | (_, _, Some(a), Some(b)) => self.mean2(a, b),
+            _ => match (a.or(b), c.or(d)) {
+                (Some(a), Some(c)) => self.mean2(a, c),
+                (one, other) => self.back.words_at(one.or(other)?),
             },
         }
     }
 
-    /// The galpixel at a place, if it came from inside of a surface, or is a bullet fill of an earlier round.
-    fn inside(&self, x: i32, y: i32, round: u32) -> Option<Words> {
+    /// The cell at a place, if what it holds came from inside of a surface, or is a bullet fill of an earlier round.
+    #[inline(always)]
+    fn inside(&self, x: i32, y: i32, round: u32) -> Option<u32> {
         let cell = self.back.grid().cell(x, y)?;
         let winner = *self.winners.get(cell as usize)?;
         let inside = if winner >= FILLED { winner < FILLED + round } else { !on_edge(self.edges, winner) };
-        let words = self.back.words_at(cell)?;
-        let galpixel = self.back.record().class().unsigned(&words) == Class::Galpixel as u32;
-        (inside && winner != NOBODY && galpixel).then_some(words)
+        (inside && self.back.class(cell) == Class::Galpixel).then_some(cell)
+    }
+
+    /// The mean of two cells, field by field, halves upwards; tag and fraction of the luminosity from the first.
+    fn mean2(&self, a: u32, b: u32) -> Option<Words> {
+        let record = self.back.record();
+        let (a, b) = (self.back.words_at(a)?, self.back.words_at(b)?);
+        let mut mean = a;
+        each_moving_field(record, |field| {
+            field.set(&mut mean, ((field.signed(&a) + field.signed(&b) + 1) >> 1) as u32);
+        });
+        let depth = record.depth();
+        depth.set(&mut mean, (depth.unsigned(&a) + depth.unsigned(&b) + 1) >> 1);
+        let colour = record.colour();
+        colour.set(&mut mean, L::Colour::mean2([colour.unsigned(&a), colour.unsigned(&b)]));
+        Some(mean)
+    }
+
+    /// The mean of four cells, field by field, halves upwards; tag and fraction of the luminosity from the first.
+    fn mean4(&self, a: u32, b: u32, c: u32, d: u32) -> Option<Words> {
+        let record = self.back.record();
+        let back = &self.back;
+        let (a, b, c, d) = (back.words_at(a)?, back.words_at(b)?, back.words_at(c)?, back.words_at(d)?);
+        let mut mean = a;
+        each_moving_field(record, |field| {
+            let sum = field.signed(&a) + field.signed(&b) + field.signed(&c) + field.signed(&d);
+            field.set(&mut mean, ((sum + 2) >> 2) as u32);
+        });
+        let depth = record.depth();
+        let sum = depth.unsigned(&a) + depth.unsigned(&b) + depth.unsigned(&c) + depth.unsigned(&d);
+        depth.set(&mut mean, (sum + 2) >> 2);
+        let colour = record.colour();
+        let colours = [colour.unsigned(&a), colour.unsigned(&b), colour.unsigned(&c), colour.unsigned(&d)];
+        colour.set(&mut mean, L::Colour::mean4(colours));
+        Some(mean)
     }
 }
 
-/// The mean of two galpixels, field by field, halves upwards; tag and fraction of the luminosity from the first.
-fn mean2<L: Layout>(record: &Record, wordss: [Words; 2]) -> Words {
-    let mut mean = wordss[0];
-    for field in moving_fields(record) {
-        let sum = field.signed(&wordss[0]) + field.signed(&wordss[1]);
-        field.set(&mut mean, ((sum + 1) >> 1) as u32);
-    }
-    let [a, b] = wordss.map(|words| record.depth().unsigned(&words));
-    record.depth().set(&mut mean, (a + b + 1) >> 1);
-    let colours = wordss.map(|words| record.colour().unsigned(&words));
-    record.colour().set(&mut mean, L::Colour::mean2(colours));
-    mean
-}
-
-/// The mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity from the first.
-fn mean4<L: Layout>(record: &Record, wordss: [Words; 4]) -> Words {
-    let mut mean = wordss[0];
-    for field in moving_fields(record) {
-        let sum = wordss.iter().fold(2, |sum, words| sum + field.signed(words));
-        field.set(&mut mean, (sum >> 2) as u32);
-    }
-    let sum = wordss.iter().fold(2, |sum, words| sum + record.depth().unsigned(words));
-    record.depth().set(&mut mean, sum >> 2);
-    let colours = wordss.map(|words| record.colour().unsigned(&words));
-    record.colour().set(&mut mean, L::Colour::mean4(colours));
-    mean
-}
-
-/// The signed fields that a mean is taken of. Absent ones read 0 and ignore writes.
-fn moving_fields(record: &Record) -> [crate::record::Field; 9] {
-    let [vx, vy, vz] = [record.velocity(0), record.velocity(1), record.velocity(2)];
-    let [ax, ay, az] = [record.acceleration(0), record.acceleration(1), record.acceleration(2)];
-    [record.offset_x(), record.offset_y(), vx, vy, vz, ax, ay, az, record.luminosity_rate()]
+/// The signed fields that a mean is taken of, one after the other. Absent ones read 0 and ignore writes.
+#[inline(always)]
+fn each_moving_field(record: &Record, mut visit: impl FnMut(Field)) {
+    visit(record.offset_x());
+    visit(record.offset_y());
+    visit(record.velocity(0));
+    visit(record.velocity(1));
+    visit(record.velocity(2));
+    visit(record.acceleration(0));
+    visit(record.acceleration(1));
+    visit(record.acceleration(2));
+    visit(record.luminosity_rate());
 }

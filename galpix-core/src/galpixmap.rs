@@ -177,6 +177,15 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
             .map(move |((&top, &word), &spill)| class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill))
     }
 
+    /// How many of `count` cells from `cell` on are empty.
+    #[inline(always)]
+    pub(crate) fn empties(&self, cell: u32, count: u32) -> u32 {
+        let (word, _) = self.record().class().words();
+        let class = self.record().class().extract();
+        let cells = self.planes[word].get(cell as usize..(cell + count) as usize).unwrap_or_default();
+        cells.iter().map(|&word| (class.unsigned(word, word) == Class::Empty as u32) as u32).sum()
+    }
+
     /// The class that a key holds.
     #[inline(always)]
     pub(crate) fn class_of(&self, key: u32) -> u32 {

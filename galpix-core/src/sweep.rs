@@ -116,7 +116,9 @@ fn copy_in(lanes: &mut [u32; CHUNK], plane: &[u32], source: u32, cells: usize) {
 #[inline(always)]
 fn shift_in(shifted: &mut [i32; CHUNK], lanes: &[i32; CHUNK]) {
     shifted[0] = lanes[0];
-    shifted[1..].copy_from_slice(&lanes[..CHUNK - 1]);
+    for (to, &from) in shifted.iter_mut().skip(1).zip(lanes) {
+        *to = from;
+    }
 }
 
 /// How many lanes from the first on go straight on.
@@ -253,7 +255,9 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
         if occupied == 0 {
             for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
                 if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
-                    to.copy_from_slice(from);
+                    for (to, &from) in to.iter_mut().zip(from) {
+                        *to = from;
+                    }
                 }
             }
             if let Some(winners) = self.winners.get_mut(cells) {

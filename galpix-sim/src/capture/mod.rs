@@ -17,6 +17,7 @@ mod error;
 mod exr_planes;
 mod flo;
 mod manifest;
+mod mixed;
 mod motion;
 mod npy;
 mod pfm;

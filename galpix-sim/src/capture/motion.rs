@@ -8,7 +8,7 @@ use super::error::CaptureError;
 use super::exr_planes::{Planes, under};
 use super::manifest::{Background, Camera, Depth, DisparityMotion, Flow, Manifest, Motion, Passes};
 use super::source::{Size, Source};
-use super::{poses, raster};
+use super::{mixed, poses, raster};
 
 /// The motion of each cell, per display frame; `None` where it is unknown or the cell starts empty.
 pub(super) fn read(
@@ -23,7 +23,14 @@ pub(super) fn read(
         Motion::Disparity(motion) => disparity(motion, folder, size)?,
         Motion::Flow(flow) => displacements(flow, folder, size)?,
         Motion::Planes(passes) => planes(passes, folder, size, depth_scale(&update.depth))?,
-        Motion::BlenderVector(passes) => blender_vector(passes, folder, size)?,
+        Motion::BlenderVector(passes) => {
+            let mut tracks = blender_vector(passes, folder, size)?;
+            let replaced = distances.as_ref().map_or(0, |distances| mixed::unmix(&mut tracks, distances, size));
+            if replaced > 0 {
+                census.notes.push(format!("{replaced} vectors at the borders of surfaces were mixed and are replaced"));
+            }
+            tracks
+        }
         Motion::Camera(camera) => from_camera(camera, folder, size, distances, census)?,
     };
     let background = match update.background {

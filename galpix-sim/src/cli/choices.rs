@@ -43,6 +43,8 @@ pub enum FillChoice {
     /// As bullet, and debris keeps its motion, one frame late
     #[default]
     Galdebris,
+    /// As bullet, and what was uncovered continues the farther of the surfaces beside it, along its row
+    Extend,
     /// Integer push-pull (not built yet)
     PushPull,
     /// Metameric inpainting (not built yet)
@@ -58,8 +60,9 @@ impl FillChoice {
             Self::Debris => Ok(Rung::Debris),
             Self::Bullet => Ok(Rung::Bullet),
             Self::Galdebris => Ok(Rung::Galdebris),
+            Self::Extend => Ok(Rung::Extend),
             Self::PushPull | Self::Metamer => {
-                Err("--fill push-pull and metamer are not built yet: galdebris is the richest rung there is".to_owned())
+                Err("--fill push-pull and metamer are not built yet: extend is the richest rung there is".to_owned())
             }
         }
     }
