@@ -87,17 +87,17 @@ fn passes_are_clean((target, machine): (&str, Machine)) {
 }
 
 #[test]
-fn passes_are_clean_on_armv6m() {
+fn codegen_is_clean_on_armv6m() {
     passes_are_clean(THUMB);
 }
 
 #[test]
-fn passes_are_clean_on_rv32imac() {
+fn codegen_is_clean_on_rv32imac() {
     passes_are_clean(RISCV);
 }
 
 #[test]
-fn planted_faults_are_found() {
+fn codegen_finds_planted_faults() {
     let multiply = [Fault::Instruction(Deed::Multiply), Fault::Helper];
     let divide = [Fault::Instruction(Deed::Divide), Fault::Helper];
     let planted: [(&str, &[Fault]); 7] = [
