@@ -90,7 +90,8 @@ step_codegen() {
     local missing
     missing="$(absent "${BARE_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    cargo test --locked -p galpix-tests --all-features --test codegen
+    # The same features as in the step before: else all is built anew.
+    cargo test --locked --workspace --all-features --test codegen
 }
 
 step_benches() {
