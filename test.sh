@@ -1,0 +1,161 @@
+#!/usr/bin/env bash
+# Checks everything, on a machine that has nothing but rustup: installs what is missing, then runs the steps below, goes on
+# after one that fails, and ends with one line a step. Ends with 1 if a step failed.
+#
+#   ./test.sh             all steps
+#   ./test.sh tests docs  only these
+#   ./test.sh --list      their names
+set -euo pipefail
+cd "$(dirname "$0")"
+export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
+[ -z "${CI:-}" ] || export CARGO_INCREMENTAL=0
+
+BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
+FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
+STEPS=(format clippy docs tests no-std codegen benches msrv firmware)
+
+summary=() passed=0 failed=0 skipped=0
+
+say() { printf '\n== %s\n' "$*"; }
+
+# A step calls this and returns: it could not run. Never to be mistaken for "passed".
+skip() { skip_reason="$*"; }
+
+installed() { compgen -G "$(rustc --print target-libdir --target "$1")/libcore-*.rlib" >/dev/null; }
+
+# --- what is missing -------------------------------------------------------------------------------------------------
+
+install_missing() {
+    local target
+    command -v cargo >/dev/null || { echo "cargo is missing: install Rust with rustup, then call ./test.sh again" >&2; exit 1; }
+    if ! command -v c++ >/dev/null && ! command -v g++ >/dev/null; then
+        if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+            say "a C++ compiler is missing: installing g++"
+            apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ || echo "g++ could not be installed" >&2
+        else
+            echo "a C++ compiler is missing: install one, for example with: sudo apt-get install g++" >&2
+        fi
+    fi
+    for target in "${BARE_TARGETS[@]}" "${FIRMWARE_TARGETS[@]}"; do
+        installed "$target" && continue
+        say "the target $target is missing: rustup target add"
+        timeout 300 rustup target add "$target" || echo "$target could not be installed" >&2
+    done
+    cargo fmt --version >/dev/null 2>&1 || { say "rustfmt is missing: rustup component add"; timeout 300 rustup component add rustfmt || true; }
+    cargo clippy --version >/dev/null 2>&1 || { say "clippy is missing: rustup component add"; timeout 300 rustup component add clippy || true; }
+}
+
+# The targets of a list that are not there.
+absent() {
+    local target
+    for target; do installed "$target" || printf '%s ' "$target"; done
+}
+
+# --- the steps -------------------------------------------------------------------------------------------------------
+
+step_format() {
+    cargo fmt --version >/dev/null 2>&1 || { skip "rustfmt is not installed"; return; }
+    cargo fmt --all -- --check
+    cargo fmt --manifest-path tests/codegen/Cargo.toml -- --check
+}
+
+step_clippy() {
+    cargo clippy --version >/dev/null 2>&1 || { skip "clippy is not installed"; return; }
+    cargo clippy --locked --workspace --all-targets --all-features -- -D warnings
+}
+
+step_docs() {
+    RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --all-features --no-deps --document-private-items
+}
+
+# Unit tests, tests across the crates and doctests. The machine code has a step of its own.
+step_tests() {
+    cargo test --locked --workspace --all-features -- --skip codegen_
+}
+
+# The core as firmware takes it: by default, with each feature alone, and with all.
+step_no-std() {
+    local target features missing
+    missing="$(absent "${BARE_TARGETS[@]}")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    for target in "${BARE_TARGETS[@]}"; do
+        for features in "" embedded-graphics defmt embedded-graphics,defmt; do
+            echo "galpix-core for $target with features: ${features:-none}"
+            cargo build --locked --quiet -p galpix-core --lib --target "$target" --features "$features"
+        done
+    done
+}
+
+step_codegen() {
+    local missing
+    missing="$(absent "${BARE_TARGETS[@]}")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    # The same features as in the step before: else all is built anew.
+    cargo test --locked --workspace --all-features --test codegen
+}
+
+step_benches() {
+    cargo bench --locked -p galpix-core --no-run
+    # Small and quick: that it runs and ends, not how fast it is.
+    cargo run --locked --profile bench -p galpix-core --example ratios -- 64x64 1
+}
+
+# Clippy has already compared every call into the standard library with rust-version; the language itself it does not know.
+step_msrv() {
+    local least toolchain
+    least="$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)"
+    toolchain="$(rustup toolchain list 2>/dev/null | sed -n "s/^\($least[.0-9]*-[^ ]*\).*/\1/p" | head -n 1)"
+    [ -n "$toolchain" ] || { skip "Rust $least, the rust-version, is not installed here; $(rustc --version) is"; return; }
+    CARGO_TARGET_DIR=target/msrv cargo "+$toolchain" check --locked --workspace --all-features
+}
+
+# The firmware in the emulator: build for each board, run, compare with the simulator.
+step_firmware() {
+    [ -x firmware/test.sh ] || { skip "there is no firmware/test.sh yet"; return; }
+    firmware/test.sh
+}
+
+# --- running them ----------------------------------------------------------------------------------------------------
+
+run_step() {
+    local name="$1" started=$SECONDS word
+    skip_reason=""
+    say "$name"
+    # In a subshell of its own, so that its first failing command ends it and not the others.
+    local reason status=0
+    reason="$(mktemp)"
+    set +e
+    ( set -e; "step_$name"; printf '%s' "$skip_reason" >"$reason" )
+    status=$?
+    set -e
+    skip_reason="$(cat "$reason")"
+    rm -f "$reason"
+    if [ "$status" != 0 ]; then
+        word="FAILED" failed=$((failed + 1))
+    elif [ -n "$skip_reason" ]; then
+        word="skipped: $skip_reason" skipped=$((skipped + 1))
+    else
+        word="passed" passed=$((passed + 1))
+    fi
+    summary+=("$(printf '%-9s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
+}
+
+main() {
+    local name chosen=("$@")
+    if [ "${1:-}" = --list ]; then
+        printf '%s\n' "${STEPS[@]}"
+        return
+    fi
+    [ "$#" -gt 0 ] || chosen=("${STEPS[@]}")
+    for name in "${chosen[@]}"; do
+        [[ " ${STEPS[*]} " == *" $name "* ]] || { echo "there is no step \"$name\": ./test.sh --list names them" >&2; exit 2; }
+    done
+    install_missing
+    for name in "${chosen[@]}"; do run_step "$name"; done
+    printf '\n'
+    printf '%s\n' "${summary[@]}"
+    printf '%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped"
+    [ "$failed" = 0 ]
+}
+
+main "$@"

@@ -1,0 +1,169 @@
+//! The core's passes as symbols of a static library, so that their machine code can be inspected.
+//!
+//! `proof_*` must reach no panic, no multiplication, no division and no float; `planted_*` each reach one of them on
+//! purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
+//! settings come from outside.
+
+#![no_std]
+
+use galpix_core::budget::{Bits, Demand};
+use galpix_core::frame::{self, Scratch, Settings};
+use galpix_core::galpixel::{Profile, Static};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::layout::{Flat565, Full, Shaded, Velocity565, VelocityGray4};
+use galpix_core::rounding::Rounding;
+use galpix_core::tally::Tally;
+use galpix_core::{edge, fill, scan_out, sweep};
+
+const DEMAND: Demand = Demand { extent: 512, recog: 8, prop: 16 };
+
+/// A panel of up to 512 pixels a side, with acceleration.
+#[derive(Debug)]
+pub struct Panel;
+
+impl Profile for Panel {
+    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
+}
+
+/// The same without acceleration.
+#[derive(Debug)]
+pub struct PanelVelocity;
+
+impl Profile for PanelVelocity {
+    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
+}
+
+macro_rules! proofs {
+    ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $scan_out:ident;)*) => {$(
+        /// Propagation and resolution.
+        #[unsafe(no_mangle)]
+        pub fn $sweep(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
+            winners: &mut [u32],
+            rounding: Rounding,
+            frame: u32,
+        ) -> Tally {
+            sweep::sweep(front, back, winners, rounding, frame)
+        }
+
+        /// The edge map.
+        #[unsafe(no_mangle)]
+        pub fn $edge(front: &Galpixmap<'_, $layout, Static<$profile>>, threshold: u32, edges: &mut [u32]) -> u32 {
+            edge::mark(front, threshold, edges)
+        }
+
+        /// The fill ladder.
+        #[unsafe(no_mangle)]
+        pub fn $fill(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
+            scratch: &mut Scratch<'_>,
+            settings: &Settings,
+            tally: &mut Tally,
+        ) {
+            fill::fill(front, back, scratch.winners, scratch.edges, settings.rung, settings.reach, tally);
+        }
+
+        /// A whole frame.
+        #[unsafe(no_mangle)]
+        pub fn $step(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
+            scratch: &mut Scratch<'_>,
+            settings: &Settings,
+            frame: u32,
+        ) -> Tally {
+            frame::step(front, back, scratch, settings, frame)
+        }
+
+        /// A row for a display of 16-bit words.
+        #[unsafe(no_mangle)]
+        pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
+            for (word, colour) in line.iter_mut().zip(scan_out::row(map, y)) {
+                *word = colour as u16;
+            }
+        }
+    )*};
+}
+
+proofs! {
+    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_scan_out_full;
+    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_scan_out_shaded;
+    Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565,
+        proof_scan_out_flat565;
+    Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
+        proof_step_velocity565, proof_scan_out_velocity565;
+    VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
+        proof_step_velocity_gray4, proof_scan_out_velocity_gray4;
+}
+
+mod planted {
+    //! One fault each.
+
+    /// An index that may be out of range, two calls down.
+    #[unsafe(no_mangle)]
+    pub fn planted_panic(words: &mut [u32], cell: usize) {
+        outer(words, cell);
+    }
+
+    #[inline(never)]
+    fn outer(words: &mut [u32], cell: usize) {
+        inner(words, cell);
+        inner(words, cell + 1);
+    }
+
+    #[inline(never)]
+    fn inner(words: &mut [u32], cell: usize) {
+        words[cell] = 0;
+    }
+
+    /// A panic behind a function pointer that a table in memory holds.
+    #[unsafe(no_mangle)]
+    pub fn planted_panic_in_table(words: &mut [u32], cell: usize, which: usize) {
+        static TABLE: [fn(&mut [u32], usize); 2] = [inner, outer];
+        if let Some(chosen) = TABLE.get(which) {
+            chosen(words, cell);
+        }
+    }
+
+    /// A multiplication in the code itself.
+    #[unsafe(no_mangle)]
+    pub fn planted_multiply(y: u32, width: u32) -> u32 {
+        y.wrapping_mul(width)
+    }
+
+    /// A multiplication that is a helper's work where the machine has no 64-bit product.
+    #[unsafe(no_mangle)]
+    pub fn planted_wide_multiply(y: u64, width: u64) -> u64 {
+        y.wrapping_mul(width)
+    }
+
+    /// A division, an instruction or a helper; no panic.
+    #[unsafe(no_mangle)]
+    pub fn planted_divide(cells: u32, width: core::num::NonZeroU32) -> u32 {
+        cells / width
+    }
+
+    /// A remainder by a constant, which optimisers turn into a multiplication.
+    #[unsafe(no_mangle)]
+    pub fn planted_remainder(cells: u32) -> u32 {
+        cells % 10
+    }
+
+    /// A float.
+    #[unsafe(no_mangle)]
+    pub fn planted_float(v: f32, a: f32) -> f32 {
+        v + a
+    }
+}
+
+unsafe extern "C" {
+    /// Defined nowhere: whatever reaches it can panic.
+    safe fn galpix_core_can_panic() -> !;
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    galpix_core_can_panic()
+}

@@ -1,0 +1,124 @@
+//! "Additions and shifts only, no panic" as a test: the machine code of the core's passes is read.
+//!
+//! `tests/codegen` is built as a static library for two bare machines, optimised for speed and for size, with link-time
+//! optimisation. From each of its `proof_*` symbols on, everything that can be reached is visited (see [`library`]) and
+//! disassembled (see [`instructions`]).
+//!
+//! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame and scan-out, for each layout there, with
+//! a budget fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide, float or
+//! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. **Not
+//! proved:** the same for other layouts, for setting up a map, for budgets chosen at run time, or with overflow checks on.
+//!
+//! The `planted_*` symbols each do one of these things and must be found.
+
+mod instructions;
+mod library;
+mod verdict;
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use instructions::{Deed, Machine};
+use library::Library;
+use verdict::{Fault, Verdict, judge};
+
+const THUMB: (&str, Machine) = ("thumbv6m-none-eabi", Machine::Thumb);
+const RISCV: (&str, Machine) = ("riscv32imac-unknown-none-elf", Machine::RiscV32);
+
+/// Optimised for speed, and for size.
+const PROFILES: [&str; 2] = ["release", "small"];
+
+/// Whether the core library for a target is there, and so a program for it can be built.
+fn installed(target: &str) -> bool {
+    let output = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()))
+        .args(["--print", "target-libdir", "--target", target])
+        .output();
+    let Ok(output) = output else { return false };
+    let folder = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
+    folder
+        .read_dir()
+        .is_ok_and(|files| files.flatten().any(|file| file.file_name().to_string_lossy().starts_with("libcore-")))
+}
+
+/// Builds `tests/codegen`; `None`, with a word to standard error, where the target is not installed.
+fn build(target: &str, profile: &str) -> Option<Library> {
+    if !installed(target) {
+        eprintln!("skipped: {target} is not installed: rustup target add {target}");
+        return None;
+    }
+    let project = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let built = project.join("../target/codegen");
+    let status = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()))
+        .args(["build", "--locked", "--quiet", "--target", target, "--profile", profile])
+        .current_dir(project.join("codegen"))
+        .env("CARGO_TARGET_DIR", &built)
+        // Meant for the host.
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS")
+        .env_remove("CARGO_BUILD_TARGET")
+        .status()
+        .expect("cargo can be started");
+    assert!(status.success(), "tests/codegen does not build for {target}");
+    let file = built.join(target).join(profile).join("libgalpix_codegen.a");
+    let bytes = std::fs::read(&file).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+    Some(Library::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", file.display())))
+}
+
+fn judged(machine: Machine, library: &Library, entry: &str) -> Verdict {
+    judge(machine, library, entry).unwrap_or_else(|error| panic!("{entry}: {error}"))
+}
+
+fn passes_are_clean((target, machine): (&str, Machine)) {
+    let mut faults = String::new();
+    for profile in PROFILES {
+        let Some(library) = build(target, profile) else { return };
+        let entries = library.entries("proof_");
+        assert_eq!(entries.len(), 25, "five passes of five layouts: {entries:?}");
+        for entry in entries {
+            let verdict = judged(machine, &library, &entry);
+            println!("{target} {profile}: {entry}: {} instructions", verdict.instructions);
+            assert!(verdict.instructions > 10, "{entry} is a stub of {} instructions", verdict.instructions);
+            for finding in verdict.findings {
+                faults += &format!("\n  {target} {profile}: {finding}");
+            }
+        }
+    }
+    assert!(faults.is_empty(), "the core's machine code does what it must not:{faults}");
+}
+
+#[test]
+fn codegen_is_clean_on_armv6m() {
+    passes_are_clean(THUMB);
+}
+
+#[test]
+fn codegen_is_clean_on_rv32imac() {
+    passes_are_clean(RISCV);
+}
+
+#[test]
+fn codegen_finds_planted_faults() {
+    let multiply = [Fault::Instruction(Deed::Multiply), Fault::Helper];
+    let divide = [Fault::Instruction(Deed::Divide), Fault::Helper];
+    let planted: [(&str, &[Fault]); 7] = [
+        ("planted_divide", &divide),
+        ("planted_float", &[Fault::Helper]),
+        ("planted_multiply", &[Fault::Instruction(Deed::Multiply)]),
+        ("planted_panic", &[Fault::Panic]),
+        ("planted_panic_in_table", &[Fault::Panic]),
+        ("planted_remainder", &[Fault::Instruction(Deed::Multiply), Fault::Helper]),
+        ("planted_wide_multiply", &multiply),
+    ];
+    for (target, machine) in [THUMB, RISCV] {
+        for profile in PROFILES {
+            let Some(library) = build(target, profile) else { continue };
+            let entries = library.entries("planted_");
+            assert_eq!(entries, planted.map(|(entry, _)| entry));
+            for (entry, expected) in planted {
+                let verdict = judged(machine, &library, entry);
+                let found = verdict.findings.iter().any(|finding| expected.contains(&finding.fault));
+                assert!(found, "{target} {profile}: nothing like {expected:?} was found in {entry}");
+            }
+        }
+    }
+}
