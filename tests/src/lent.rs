@@ -55,7 +55,7 @@ pub fn with_maps<L: Layout, B: Budget<L>, R>(
     shape: Shape,
     budget: B,
     content: Option<&[u32]>,
-    work: impl FnOnce(Galpixmap<'_, L, B>, Galpixmap<'_, L, B>) -> R,
+    work: impl for<'p> FnOnce(Galpixmap<'p, L, B>, Galpixmap<'p, L, B>) -> R,
 ) -> R {
     let mut starts = vec![STALE; Grid::rows(shape.height, shape.wings)];
     let grid = Grid::new(shape.width, shape.height, shape.wings, &mut starts).unwrap();
@@ -83,18 +83,8 @@ pub fn with_controller<L: Layout, B: Budget<L>, R>(
     with_maps(shape, budget, content, |front, back| {
         assert_eq!(edges.len(), edge::words(front.grid()));
         let scratch = Scratch { winners: &mut winners, edges: &mut edges };
-        // The lent scratch and the lent maps end together, inside of this closure.
-        run(front, back, scratch, work)
+        work(&mut Controller::new(front, back, scratch).unwrap())
     })
-}
-
-fn run<'p, L: Layout, B: Budget<L>, R>(
-    front: Galpixmap<'p, L, B>,
-    back: Galpixmap<'p, L, B>,
-    scratch: Scratch<'p>,
-    work: impl FnOnce(&mut Controller<'p, L, B>) -> R,
-) -> R {
-    work(&mut Controller::new(front, back, scratch).unwrap())
 }
 
 /// All planes of a map, one after the other.
