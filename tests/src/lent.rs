@@ -76,7 +76,7 @@ pub fn with_controller<L: Layout, B: Budget<L>, R>(
     shape: Shape,
     budget: B,
     content: Option<&[u32]>,
-    work: impl FnOnce(&mut Controller<'_, L, B>) -> R,
+    work: impl for<'p> FnOnce(&mut Controller<'p, L, B>) -> R,
 ) -> R {
     let mut winners = vec![STALE; shape.cells() as usize];
     let mut edges = vec![STALE; shape.cells().div_ceil(32) as usize];
