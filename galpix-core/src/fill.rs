@@ -7,8 +7,9 @@
 //! at their boundary is inside a surface, and nothing within them ever becomes so.
 //!
 //! Means are taken of 1, 2 or 4 galpixels only, so that a shift divides. Of the four neighbours that share a side: all
-//! four; else two that face each other; else the two there are; else the one there is. If there is none, the four that
-//! share a corner, by the same rule.
+//! four; else two that face each other; else the two there are; else the one there is. If all four are holes themselves, as
+//! where a gap between rows crosses one between columns, the four that share a corner, by the same rule. A hole in the
+//! corner of a just-unobscured area is none of these: its neighbours across a side are there, and on an edge.
 
 use crate::colour::Colour;
 use crate::edge::on_edge;
@@ -169,7 +170,16 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
         let sides = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
         let corners = [(x - 1, y - 1), (x + 1, y + 1), (x + 1, y - 1), (x - 1, y + 1)];
-        self.mean(sides, round).or_else(|| self.mean(corners, round))
+        self.mean(sides, round).or_else(|| {
+            let crossing = sides.iter().all(|&(x, y)| self.vacant(x, y, round));
+            if crossing { self.mean(corners, round) } else { None }
+        })
+    }
+
+    /// Whether there was nothing at a place when this round began.
+    fn vacant(&self, x: i32, y: i32, round: u32) -> bool {
+        let winner = self.back.grid().cell(x, y).and_then(|cell| self.winners.get(cell as usize));
+        winner.is_none_or(|&winner| winner >= FILLED + round)
     }
 
     /// The mean of two pairs of neighbours that face each other: 0 and 1, 2 and 3.
