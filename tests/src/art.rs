@@ -108,7 +108,7 @@ impl Art {
             let cells = (0..map.grid().width()).map(|x| map.load(x as i32, y as i32).expect("in the map"));
             cells.map(|galpixel| sign(&galpixel, panel)).collect()
         };
-        let lines = (0..map.grid().height());
+        let lines = 0..map.grid().height();
         Self(lines.map(|y| panels.iter().map(|&panel| line(y, panel)).collect::<Vec<_>>().join("  ")).collect())
     }
 

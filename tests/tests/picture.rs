@@ -154,15 +154,15 @@ fn a_just_unobscured_square_is_debris_from_its_corner_inwards() {
 
 #[test]
 fn galdebris_is_one_frame_late_and_then_two() {
-    let before = &["AB.......  33.......  >>......."];
+    let before = &["CCAB.....  cc33.....  -->>....."];
     let after: &[&[&str]] = &[
-        &["aAB......  !##......  >>>......"],
+        &["CCaAB....  ##!##....  -->>>...."],
         // The debris of the first frame moved on by one, and what it left is one later still.
-        &["aaAB.....  !~##.....  >>>>....."],
-        &["aaaAB....  !~~##....  >>>>>...."],
+        &["CCaaAB...  ##!~##...  -->>>>..."],
+        &["CCaaaAB..  ##!~~##..  -->>>>>.."],
     ];
     let tally = frames(Rung::Galdebris, &[Colour, Classes, Motion], before, after);
-    assert_eq!((tally.galdebris, tally.moved, tally.collided), (1, 4, 0));
+    assert_eq!((tally.galdebris, tally.moved, tally.collided), (1, 6, 0));
 }
 
 #[test]
