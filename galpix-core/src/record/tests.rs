@@ -2,7 +2,7 @@
 
 extern crate std;
 
-use super::{Block, FIELDS, Field, MAX_WORDS, Record};
+use super::{FIELDS, Field, MAX_WORDS, Record, Words};
 use crate::budget::{Bits, Demand};
 use crate::layout::Lanes;
 
@@ -56,13 +56,13 @@ fn every_field_is_there_alone_and_in_the_fewest_words() {
         assert_eq!(record.words(), total.div_ceil(32) as usize, "{bits:?} {lanes:?} {colour_bits}");
         assert_eq!(record.bytes(), 4 * record.words());
         // A field that is set alone sets as many bits as it has, and no bit belongs to two.
-        let mut taken: Block<1> = Default::default();
+        let mut taken = Words::default();
         for field in record.fields {
-            let mut block: Block<1> = Default::default();
-            field.set(&mut block, &[u32::MAX]);
-            let ones: u32 = block.iter().map(|[word]| word.count_ones()).sum();
+            let mut words = Words::default();
+            field.set(&mut words, u32::MAX);
+            let ones: u32 = words.iter().map(|word| word.count_ones()).sum();
             assert_eq!(ones, u32::from(field.bits), "{field:?}");
-            for ([taken], ([word], number)) in taken.iter_mut().zip(block.into_iter().zip(0..)) {
+            for (taken, (word, number)) in taken.iter_mut().zip(words.into_iter().zip(0..)) {
                 assert_eq!(*taken & word, 0, "{field:?} overlaps");
                 assert!(word == 0 || number < record.words(), "{field:?} lies beyond the last word");
                 *taken |= word;
@@ -78,27 +78,18 @@ fn every_field_is_read_as_it_was_set_and_disturbs_no_other() {
         for (chosen, field) in record.fields.into_iter().enumerate() {
             for ground in [0, u32::MAX, 0x5a5a_1234] {
                 for value in [0, 1, u32::MAX, 1 << 31 >> (32 - field.bits.clamp(1, 32)), 0x2c6e_9b31] {
-                    // Two galpixels side by side; the second one must stay as it is.
-                    let mut block: Block<2> = [[ground; 2]; MAX_WORDS];
-                    let before: [[u32; 2]; FIELDS] = record.fields.map(|field| field.unsigned(&block));
-                    let kept = before[chosen][1];
-                    field.set(&mut block, &[value, kept]);
-                    assert_eq!(field.unsigned(&block), [value & top(field), kept], "{field:?} of {lanes:?}");
-                    assert_eq!(
-                        i64::from(field.signed(&block)[0]),
-                        two_complement(field, value),
-                        "{field:?} of {lanes:?}"
-                    );
+                    let mut words: Words = [ground; MAX_WORDS];
+                    let before: [u32; FIELDS] = record.fields.map(|field| field.unsigned(&words));
+                    field.set(&mut words, value);
+                    assert_eq!(field.unsigned(&words), value & top(field), "{field:?} of {lanes:?}");
+                    assert_eq!(i64::from(field.signed(&words)), two_complement(field, value), "{field:?} of {lanes:?}");
                     for (other, (field, before)) in record.fields.into_iter().zip(before).enumerate() {
                         if other != chosen {
-                            assert_eq!(field.unsigned(&block), before, "{field:?} of {lanes:?} was disturbed");
+                            assert_eq!(field.unsigned(&words), before, "{field:?} of {lanes:?} was disturbed");
                         }
                     }
-                    let spare = record.words()..MAX_WORDS;
-                    assert!(
-                        block[spare].iter().all(|words| *words == [ground; 2]),
-                        "{field:?} wrote beyond the record"
-                    );
+                    let spare = &words[record.words()..];
+                    assert!(spare.iter().all(|word| *word == ground), "{field:?} wrote beyond the record");
                 }
             }
         }
