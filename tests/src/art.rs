@@ -180,10 +180,7 @@ pub fn budget() -> Chosen<Full> {
 }
 
 /// Lends a controller whose map shows a drawing on a display without wings.
-pub fn with_drawing<R>(
-    drawing: &[&str],
-    work: impl for<'p> FnOnce(&mut Controller<'p, Full, Chosen<Full>>) -> R,
-) -> R {
+pub fn with_drawing<R>(drawing: &[&str], work: impl for<'p> FnOnce(&mut Controller<'p, Full, Chosen<Full>>) -> R) -> R {
     let drawing = Drawing(drawing);
     with_controller(drawing.shape(), budget(), None, |controller| {
         drawing.store(controller.front_mut(), |_| ());

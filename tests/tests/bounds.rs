@@ -82,7 +82,11 @@ fn worst_errors(bits: Bits, rounding: Rounding, prop: u32, phase: u32) -> Vec<f6
             (0..residues).flat_map(move |v| {
                 (-residues / 2..residues / 2).map(move |a| {
                     let [v, a] = [v, a].map(f64::from);
-                    [off * unit(x.position_frac), (v + off) * unit(x.velocity_frac), (a + off) * unit(x.acceleration_frac)]
+                    [
+                        off * unit(x.position_frac),
+                        (v + off) * unit(x.velocity_frac),
+                        (a + off) * unit(x.acceleration_frac),
+                    ]
                 })
             })
         })

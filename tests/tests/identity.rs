@@ -5,9 +5,7 @@ use fixed::types::I32F32;
 use galpix_core::fill::Rung;
 use galpix_core::frame::Settings;
 use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel, Profile, Static};
-use galpix_core::layout::{
-    Flat565, Full, Layout, Shaded, Still, Tagged, Velocity565, VelocityGray4, VelocityGray8,
-};
+use galpix_core::layout::{Flat565, Full, Layout, Shaded, Still, Tagged, Velocity565, VelocityGray4, VelocityGray8};
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 use galpix_tests::layouts::{
@@ -109,7 +107,11 @@ fn loaded<L: Layout>(
 }
 
 /// `Less` lacks a lane; `More` is fed with zeros in it. `forget` takes out what no map without the lane can tell.
-fn absent_is_zero<More: Layout, Less: Layout>(profile: impl Profile, zero: fn(&mut Galpixel), forget: fn(&mut Galpixel)) {
+fn absent_is_zero<More: Layout, Less: Layout>(
+    profile: impl Profile,
+    zero: fn(&mut Galpixel),
+    forget: fn(&mut Galpixel),
+) {
     fn bits<P: Profile>(_: P) -> galpix_core::budget::Bits {
         P::BITS
     }
@@ -120,16 +122,22 @@ fn absent_is_zero<More: Layout, Less: Layout>(profile: impl Profile, zero: fn(&m
             let mut more = Vec::new();
             loaded::<More>(&stage, bits, zero, &settings, |tally, cells| more.push((tally, cells)));
             let mut more = more.into_iter();
-            loaded::<Less>(&stage, bits, |_| (), &settings, |tally, cells| {
-                let (more_tally, more_cells) = more.next().unwrap();
-                let at = format!("{} {settings:?}", stage.scene.name());
-                assert_eq!(tally, more_tally, "{at}");
-                for (cell, (mut less, mut more)) in cells.into_iter().zip(more_cells).enumerate() {
-                    forget(&mut less);
-                    forget(&mut more);
-                    assert_eq!(less, more, "{at}: cell {cell}");
-                }
-            });
+            loaded::<Less>(
+                &stage,
+                bits,
+                |_| (),
+                &settings,
+                |tally, cells| {
+                    let (more_tally, more_cells) = more.next().unwrap();
+                    let at = format!("{} {settings:?}", stage.scene.name());
+                    assert_eq!(tally, more_tally, "{at}");
+                    for (cell, (mut less, mut more)) in cells.into_iter().zip(more_cells).enumerate() {
+                        forget(&mut less);
+                        forget(&mut more);
+                        assert_eq!(less, more, "{at}: cell {cell}");
+                    }
+                },
+            );
         }
     }
 }

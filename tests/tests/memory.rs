@@ -78,7 +78,8 @@ fn the_papers_example_takes_20_bytes_and_a_small_panel_8() {
 fn a_budget_fixed_at_compile_time_takes_no_memory() {
     assert_eq!(size_of_val(&Static::<Paper>::new()), 0);
     assert_eq!(size_of_val(&Static::<Uneven>::default()), 0);
-    let (fixed, chosen) = (size_of::<Galpixmap<'_, Full, Static<Paper>>>(), size_of::<Galpixmap<'_, Full, Chosen<Full>>>());
+    let (fixed, chosen) =
+        (size_of::<Galpixmap<'_, Full, Static<Paper>>>(), size_of::<Galpixmap<'_, Full, Chosen<Full>>>());
     assert!(fixed + size_of::<Record>() <= chosen + align_of::<usize>(), "{fixed} and {chosen}");
 }
 

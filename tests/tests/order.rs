@@ -15,8 +15,10 @@ use galpix_tests::lent::{Shape, cell_words, with_maps, words};
 use galpix_tests::profiles::{Paper, Scene, Slide, Uneven};
 use galpix_tests::{packed, random, stage};
 
+type Reorder = fn(&mut Vec<Arrival>);
+
 /// Orders in which arrivals may come.
-const ORDERS: [(&str, fn(&mut Vec<Arrival>)); 5] = [
+const ORDERS: [(&str, Reorder); 5] = [
     ("raster", |_| {}),
     ("reversed", |arrivals| arrivals.reverse()),
     ("shuffled", |arrivals| random::shuffle(1, arrivals)),
@@ -131,7 +133,8 @@ fn nearly_alike<L: Layout>(bits: Bits, depth_levels: u32) -> Tally {
         let shape = SHAPES[2 + below(7) as usize];
         let (cells, oddities) = (shape.cells(), [0, 0, 5, 30][below(4) as usize]);
         let reach = 1 + below(3) as i64;
-        let ways: Vec<[i64; 2]> = (0..2).map(|_| [0, 0].map(|_| i64::from(below(2 * reach as u32 + 1)) - reach)).collect();
+        let ways: Vec<[i64; 2]> =
+            (0..2).map(|_| [0, 0].map(|_| i64::from(below(2 * reach as u32 + 1)) - reach)).collect();
         let period = 1 + below(12);
         let mut content = vec![0; cells as usize * record.words()];
         for cell in 0..cells {

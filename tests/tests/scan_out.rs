@@ -178,9 +178,9 @@ fn colours_of_the_panel_are_colours_of_the_map() {
     type Rgb888 = galpix_core::colour::Rgb888;
     type Rgb565 = galpix_core::colour::Rgb565;
     assert_eq!(<Rgb888 as PanelColour>::pixel(0x12_34_56), pixelcolor::Rgb888::new(0x12, 0x34, 0x56));
-    let pixel = <Rgb565 as PanelColour>::pixel(0b10101_010101_11011);
-    assert_eq!((pixel.r(), pixel.g(), pixel.b()), (0b10101, 0b010101, 0b11011));
-    assert_eq!(pixel, pixelcolor::Rgb565::from(RawU16::new(0b10101_010101_11011)));
+    let pixel = <Rgb565 as PanelColour>::pixel(0b10101 << 11 | 0b01_0101 << 5 | 0b11011);
+    assert_eq!((pixel.r(), pixel.g(), pixel.b()), (0b10101, 0b01_0101, 0b11011));
+    assert_eq!(pixel, pixelcolor::Rgb565::from(RawU16::new(0b10101 << 11 | 0b01_0101 << 5 | 0b11011)));
     for level in 0..=255 {
         let gray = <galpix_core::colour::Gray8 as PanelColour>::pixel(level);
         assert_eq!(u32::from(gray.luma()), level);
