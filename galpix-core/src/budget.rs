@@ -170,27 +170,40 @@ impl Component {
     }
 
     /// Checks what the arithmetic needs: fields of at most [`WIDEST_FIELD`] bits, also after they are brought to the
-    /// position's unit, and no acceleration finer than the velocity.
+    /// position's unit, room for the rounding threshold, and no acceleration finer than the velocity.
+    ///
+    /// *Errors:* a velocity without a bit, a field that is too wide, a velocity coarser than the acceleration.
     pub const fn checked(self) -> Result<Self, BudgetError> {
-        if self.has_acceleration() && self.acceleration_frac > self.velocity_frac {
+        let Self { position_frac, velocity_int, velocity_frac, acceleration_int, acceleration_frac } = self;
+        if velocity_int == 0 {
+            return Err(BudgetError::VelocityVanishes { integer_bits: 0 });
+        }
+        if self.has_acceleration() && acceleration_frac > velocity_frac {
             return Err(BudgetError::VelocityCoarserThanAcceleration {
-                velocity: self.velocity_frac,
-                acceleration: self.acceleration_frac,
+                velocity: velocity_frac,
+                acceleration: acceleration_frac,
             });
         }
-        let finer = self.velocity_frac.saturating_sub(self.acceleration_frac);
-        let lift = self.position_frac.saturating_sub(self.velocity_frac + 1);
-        let aligned_acceleration = if self.has_acceleration() { self.acceleration_bits() + finer } else { 0 };
-        let widest =
-            if aligned_acceleration > self.velocity_bits() { aligned_acceleration } else { self.velocity_bits() };
-        let bits = widest + lift;
+        if position_frac > 16 {
+            return Err(BudgetError::FieldTooWide { bits: position_frac, most: 16 });
+        }
+        // An acceleration is brought to the velocity's fraction, so that integer bits alone tell which is wider.
+        let widest_int = if acceleration_int > velocity_int { acceleration_int } else { velocity_int };
+        let lift = position_frac.saturating_sub(velocity_frac.saturating_add(1));
+        let bits = widest_int.saturating_add(velocity_frac).saturating_add(lift);
         if bits > WIDEST_FIELD {
             return Err(BudgetError::FieldTooWide { bits, most: WIDEST_FIELD });
         }
-        if self.position_frac > 16 {
-            return Err(BudgetError::FieldTooWide { bits: self.position_frac, most: 16 });
+        match self.dropped_bits_checked(position_frac) {
+            Ok(()) => Ok(self),
+            Err(error) => Err(error),
         }
-        Ok(self)
+    }
+
+    /// Whether the rounding threshold of a position with `position_frac` fraction bits fits beside `2v + a`.
+    pub(crate) const fn dropped_bits_checked(self, position_frac: u32) -> Result<(), BudgetError> {
+        let bits = (self.velocity_frac + 2).saturating_sub(position_frac);
+        if bits > WIDEST_FIELD { Err(BudgetError::FieldTooWide { bits, most: WIDEST_FIELD }) } else { Ok(()) }
     }
 
     /// Whether this component carries an acceleration.

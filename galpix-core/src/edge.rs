@@ -21,11 +21,11 @@ use crate::layout::Layout;
 /// Neighbours that are looked at once.
 const RUN: u32 = 32;
 
-/// Equation (17).
+/// Equation (17). Exact for depths of up to 28 bits; with a class above them the sum may wrap, and then it does not count.
 #[inline(always)]
 #[must_use]
 pub const fn laplacian(z0: i32, left: i32, right: i32, up: i32, down: i32) -> i32 {
-    left + right + up + down - (z0 << 2)
+    left.wrapping_add(right).wrapping_add(up).wrapping_add(down).wrapping_sub(z0 << 2)
 }
 
 /// A threshold for depths of `depth_bits` bits that are linear in inverse distance or in disparity: a 64th of the range.

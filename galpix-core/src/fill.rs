@@ -7,8 +7,9 @@
 //! at their boundary is inside a surface, and nothing within them ever becomes so.
 //!
 //! Means are taken of 1, 2 or 4 galpixels only, so that a shift divides. Of the four neighbours that share a side: all
-//! four; else two that face each other; else the two there are; else the one there is. If there is none, the four that
-//! share a corner, by the same rule.
+//! four; else two that face each other; else the two there are; else the one there is. If all four are holes themselves, as
+//! where a gap between rows crosses one between columns, the four that share a corner, by the same rule. A hole in the
+//! corner of a just-unobscured area is none of these: its neighbours across a side are there, and on an edge.
 
 use crate::colour::Colour;
 use crate::edge::on_edge;
@@ -191,8 +192,19 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     /// The mean of the neighbours that lie inside a surface, if there are any.
     fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
         let inside = |dx: i32, dy: i32| self.inside(x + dx, y + dy, round);
-        self.mean(inside(-1, 0), inside(1, 0), inside(0, -1), inside(0, 1))
-            .or_else(|| self.mean(inside(-1, -1), inside(1, 1), inside(1, -1), inside(-1, 1)))
+        let vacant = |dx: i32, dy: i32| self.vacant(x + dx, y + dy, round);
+        self.mean(inside(-1, 0), inside(1, 0), inside(0, -1), inside(0, 1)).or_else(|| {
+            let crossing = vacant(-1, 0) && vacant(1, 0) && vacant(0, -1) && vacant(0, 1);
+            let corners = || self.mean(inside(-1, -1), inside(1, 1), inside(1, -1), inside(-1, 1));
+            if crossing { corners() } else { None }
+        })
+    }
+
+    /// Whether there was nothing at a place when this round began.
+    #[inline(always)]
+    fn vacant(&self, x: i32, y: i32, round: u32) -> bool {
+        let winner = self.back.grid().cell(x, y).and_then(|cell| self.winners.get(cell as usize));
+        winner.is_none_or(|&winner| winner >= FILLED + round)
     }
 
     /// The mean of two pairs of neighbours that face each other: `a` and `b`, `c` and `d`.

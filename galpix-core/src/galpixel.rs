@@ -163,8 +163,15 @@ const fn quantised(value: I32F32, frac: i32, low: i64, high: i64) -> (i32, bool)
     let shift = 32 - frac;
     let bits = value.to_bits();
     let raw = if shift <= 0 {
-        // More fraction bits than I32F32 has: never, for any budget that can be planned.
-        bits
+        // A field as fine as I32F32 or finer: motion in depth, whose unit is the whole range. What would overflow is far
+        // beyond the field and clamped either way.
+        if bits < low {
+            low - 1
+        } else if bits > high {
+            high + 1
+        } else {
+            bits << -shift
+        }
     } else if shift > 62 {
         0
     } else {

@@ -5,7 +5,7 @@
 //! canonical order instead, and a field may then straddle two words. Within a word fields stand in canonical order from
 //! the most significant bit down, so that class and depth of a first-fit word compare as one number.
 
-use crate::budget::{Bits, Component};
+use crate::budget::{Bits, Component, WIDEST_FIELD};
 use crate::error::BudgetError;
 use crate::layout::Lanes;
 
@@ -194,11 +194,15 @@ macro_rules! field_getters {
 impl Record {
     /// Lays out the lanes of a layout with `colour_bits` of colour under a budget.
     ///
-    /// *Errors:* lanes that lack their base, a depth field that cannot hold its bins, more than [`MAX_WORDS`] words.
+    /// *Errors:* lanes that lack their base, a component that [`Component::checked`] refuses, a depth field that cannot
+    /// hold its bins, a field wider than a word, more than [`MAX_WORDS`] words.
     pub const fn plan(bits: Bits, lanes: Lanes, colour_bits: u32) -> Result<Self, BudgetError> {
         if (lanes.acceleration && !lanes.velocity) || (lanes.depth_motion && (lanes.depth_bits == 0 || !lanes.velocity))
         {
             return Err(BudgetError::LaneWithoutItsBase);
+        }
+        if let Err(error) = check_components(bits, lanes) {
+            return Err(error);
         }
         let depth_bits = lanes.depth_bits + if lanes.depth_motion { bits.z.position_frac } else { 0 };
         if lanes.depth_motion && depth_bits < bits.depth_int {
@@ -206,9 +210,6 @@ impl Record {
         }
         if depth_bits > 28 {
             return Err(BudgetError::FieldTooWide { bits: depth_bits, most: 28 });
-        }
-        if colour_bits > 32 || lanes.tag_bits > 32 {
-            return Err(BudgetError::FieldTooWide { bits: lanes.tag_bits, most: 32 });
         }
         let z_frac = depth_bits.saturating_sub(bits.depth_int);
         let scales = [
@@ -223,8 +224,11 @@ impl Record {
             } else {
                 widest
             };
-            if widest > crate::budget::WIDEST_FIELD {
-                return Err(BudgetError::FieldTooWide { bits: widest, most: crate::budget::WIDEST_FIELD });
+            if widest > WIDEST_FIELD {
+                return Err(BudgetError::FieldTooWide { bits: widest, most: WIDEST_FIELD });
+            }
+            if let Err(error) = bits.z.dropped_bits_checked(z_frac) {
+                return Err(error);
             }
         }
         if lanes.acceleration
@@ -337,6 +341,28 @@ impl Record {
     }
 }
 
+/// Checks the widths that a layout uses; they may have been written by hand.
+const fn check_components(bits: Bits, lanes: Lanes) -> Result<(), BudgetError> {
+    let components = [bits.x, bits.y, bits.z];
+    let used = match (lanes.velocity, lanes.depth_motion) {
+        (_, true) => 3,
+        (true, false) => 2,
+        (false, false) => 0,
+    };
+    let mut i = 0;
+    while i < used {
+        if let Err(error) = components[i].checked() {
+            return Err(error);
+        }
+        i += 1;
+    }
+    let luminosity = bits.luminosity_int.saturating_add(bits.luminosity_frac);
+    if lanes.luminosity && luminosity > WIDEST_FIELD {
+        return Err(BudgetError::FieldTooWide { bits: luminosity, most: WIDEST_FIELD });
+    }
+    Ok(())
+}
+
 const fn pack(widths: [u32; FIELDS]) -> Result<([Field; FIELDS], u8, u16), BudgetError> {
     let mut total = 0;
     let mut i = 0;
@@ -414,3 +440,6 @@ const fn end_to_end(widths: [u32; FIELDS]) -> [Field; FIELDS] {
     }
     fields
 }
+
+#[cfg(test)]
+mod tests;

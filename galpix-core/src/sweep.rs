@@ -151,8 +151,8 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
             chunk.keys[lane] = key;
             strayed |= step.strayed[0] | step.strayed[1] | step.strayed[2] | step.strayed[3];
             // Empty cells go a way of their own: no budget has velocities of 2^31.
-            let gone = ((key >> record.depth().bits == Class::Empty as u32) as i32) << 31;
-            chunk.dx[lane] = step.dx | gone;
+            let empty = key >> record.depth().bits == Class::Empty as u32;
+            chunk.dx[lane] = if empty { i32::MIN } else { step.dx };
             chunk.dy[lane] = step.dy;
         }
         if strayed != 0 {

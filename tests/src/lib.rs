@@ -1,1 +1,12 @@
-//! Shared helpers of the cross-crate tests.
+//! What the cross-crate tests share: memory to lend, exact reference arithmetic, maps drawn as text, scenes as maps.
+//!
+//! Nothing here calls the code it is used to check: [`exact`] and [`packed`] say the same things once more, slowly.
+
+pub mod art;
+pub mod exact;
+pub mod layouts;
+pub mod lent;
+pub mod packed;
+pub mod profiles;
+pub mod random;
+pub mod stage;
