@@ -40,11 +40,11 @@ pub enum Rung {
     Bullet,
     /// Bullet holes are filled; what was just unobscured holds the galpixel that was there, not propagated: one frame
     /// late, and one more each time.
-    #[default]
     Galdebris,
     /// Bullet holes are filled; what was just unobscured continues, along its row, the farther of the two surfaces beside
     /// it, and moves with it. Where a whole row is unobscured, as galdebris. A cell of which nothing was ever known keeps
     /// its colour, as with every rung.
+    #[default]
     Extend,
 }
 

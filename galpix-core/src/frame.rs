@@ -31,7 +31,7 @@ impl Settings {
     pub const fn for_depth(depth_bits: u32) -> Self {
         Self {
             rounding: Rounding::LowDiscrepancy,
-            rung: Rung::Galdebris,
+            rung: Rung::Extend,
             edge_threshold: edge::threshold_for_depth(depth_bits),
             reach: 1,
         }

@@ -107,7 +107,7 @@ fn check_frame<L: Layout, B: Budget<L>>(
         Rung::None | Rung::Hold => [tally.bullets, tally.debris, tally.galdebris].iter().sum::<u32>(),
         Rung::Debris => tally.bullets + tally.galdebris,
         Rung::Bullet => tally.galdebris,
-        Rung::Galdebris => tally.debris,
+        Rung::Galdebris | Rung::Extend => tally.debris,
     };
     assert_eq!(allowed, 0, "{settings:?} fills only by its own means: {tally:?}");
     assert!(tally.edges <= cells && (surfaces || tally.edges == 0));

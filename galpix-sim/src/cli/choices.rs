@@ -41,9 +41,9 @@ pub enum FillChoice {
     /// Holes inside of surfaces take the mean of their neighbours, the rest is debris
     Bullet,
     /// As bullet, and debris keeps its motion, one frame late
-    #[default]
     Galdebris,
     /// As bullet, and what was uncovered continues the farther of the surfaces beside it, along its row
+    #[default]
     Extend,
     /// Integer push-pull (not built yet)
     PushPull,
