@@ -177,6 +177,17 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
             .map(move |((&top, &word), &spill)| class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill))
     }
 
+    /// Whether some cells are all empty.
+    #[inline(always)]
+    pub(crate) fn all_empty(&self, cells: Range<usize>) -> bool {
+        let (word, _) = self.record().class().words();
+        let class = self.record().class().extract();
+        let cells = self.planes[word].get(cells).unwrap_or_default();
+        // Empty is the class with all its bits set.
+        let common = cells.iter().fold(u32::MAX, |common, &word| common & word);
+        class.unsigned(common, common) == Class::Empty as u32
+    }
+
     /// How many of `count` cells from `cell` on are empty.
     #[inline(always)]
     pub(crate) fn empties(&self, cell: u32, count: u32) -> u32 {

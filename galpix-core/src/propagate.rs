@@ -73,15 +73,17 @@ impl Step {
 
 /// Moves one galpixel forward by one frame. The kernel of the engine: knows no image, and does not branch, so that a loop
 /// over neighbours becomes vector code.
+///
+/// Without `CLAMP` a field that strays is said to, and holds rubbish: for callers that take such a step again.
 #[inline(always)]
-pub(crate) fn advance<L: Layout>(record: &Record, thresholds: &[i32; 3], words: &mut Words) -> Step {
+pub(crate) fn advance<L: Layout, const CLAMP: bool>(record: &Record, thresholds: &[i32; 3], words: &mut Words) -> Step {
     let mut step = Step { dx: 0, dy: 0, strayed: [0; 4] };
     if L::LANES.velocity {
-        (step.dx, step.strayed[0]) = step_plane::<L>(record, thresholds[0], 0, words);
-        (step.dy, step.strayed[1]) = step_plane::<L>(record, thresholds[1], 1, words);
+        (step.dx, step.strayed[0]) = step_plane::<L, CLAMP>(record, thresholds[0], 0, words);
+        (step.dy, step.strayed[1]) = step_plane::<L, CLAMP>(record, thresholds[1], 1, words);
     }
     if L::LANES.depth_motion {
-        (step.strayed[2], step.strayed[3]) = step_depth::<L>(record, thresholds[2], words);
+        (step.strayed[2], step.strayed[3]) = step_depth::<L, CLAMP>(record, thresholds[2], words);
     }
     if L::LANES.luminosity {
         step_luminosity::<L>(record, words);
@@ -94,39 +96,52 @@ pub(crate) fn advance<L: Layout>(record: &Record, thresholds: &[i32; 3], words: 
 
 /// A step in x (0) or y (1): the cells moved, and by which bits the velocity strayed.
 #[inline(always)]
-fn step_plane<L: Layout>(record: &Record, threshold: i32, component: usize, words: &mut Words) -> (i32, i32) {
+fn step_plane<L: Layout, const CLAMP: bool>(
+    record: &Record,
+    threshold: i32,
+    component: usize,
+    words: &mut Words,
+) -> (i32, i32) {
     let scale = &record.scales[component];
     let offset = if component == 0 { record.offset_x() } else { record.offset_y() };
     let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
     let position = step_position(scale, threshold, offset.signed(words), v, a);
     // The field keeps the low bits, which are those of `position - (cells << position_frac)`.
     offset.set(words, position as u32);
-    (snap(scale, position), set_velocity::<L>(record, component, words, v, a))
+    (snap(scale, position), set_velocity::<L, CLAMP>(record, component, words, v, a))
 }
 
 /// A step in depth, which saturates at the near and at the far end: by which bits depth and velocity strayed.
 #[inline(always)]
-fn step_depth<L: Layout>(record: &Record, threshold: i32, words: &mut Words) -> (i32, i32) {
+fn step_depth<L: Layout, const CLAMP: bool>(record: &Record, threshold: i32, words: &mut Words) -> (i32, i32) {
     let far = ((1u32 << record.depth().bits) - 1) as i32;
     let (v, a) = (record.velocity(2).signed(words), record.acceleration(2).signed(words));
     let depth = record.depth().unsigned(words) as i32;
     let position = step_position(&record.scales[2], threshold, depth, v, a);
-    let within = position.min(far).max(0);
+    let within = if CLAMP { position.min(far).max(0) } else { position };
     record.depth().set(words, within as u32);
-    (position ^ within, set_velocity::<L>(record, 2, words, v, a))
+    let strayed = if CLAMP { position ^ within } else { position & !far };
+    (strayed, set_velocity::<L, CLAMP>(record, 2, words, v, a))
 }
 
 /// The velocity of a component after a step: by which bits it strayed.
 #[inline(always)]
-fn set_velocity<L: Layout>(record: &Record, component: usize, words: &mut Words, v: i32, a: i32) -> i32 {
+fn set_velocity<L: Layout, const CLAMP: bool>(
+    record: &Record,
+    component: usize,
+    words: &mut Words,
+    v: i32,
+    a: i32,
+) -> i32 {
     if !L::LANES.acceleration {
         return 0;
     }
     let scale = &record.scales[component];
     let velocity = step_velocity(scale, v, a);
-    let clamped = clamp_velocity(scale, velocity);
-    record.velocity(component).set(words, clamped as u32);
-    velocity ^ clamped
+    let unused = 32 - scale.velocity_bits;
+    let kept = if CLAMP { clamp_velocity(scale, velocity) } else { velocity << unused >> unused };
+    record.velocity(component).set(words, kept as u32);
+    velocity ^ kept
 }
 
 /// Shading inertia: the luminosity moves by its rate, and whole steps go into the colour's channels, clamped to them.
@@ -168,7 +183,7 @@ pub fn arrivals<'m, L: Layout, B: Budget<L>>(
             if record.class().unsigned(&words) == Class::Empty as u32 {
                 return None;
             }
-            let step = advance::<L>(record, &thresholds, &mut words);
+            let step = advance::<L, true>(record, &thresholds, &mut words);
             let cell = grid.cell(x as i32 + step.dx, y as i32 + step.dy);
             Some(Arrival { cell, source, words, saturated: step.saturated() })
         })

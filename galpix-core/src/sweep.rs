@@ -143,30 +143,27 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
             for (word, lanes) in words.iter_mut().zip(&chunk.words).take(record.words()) {
                 *word = lanes[lane];
             }
-            let step = advance::<L>(record, thresholds, &mut words);
+            let step = advance::<L, false>(record, thresholds, &mut words);
             for (word, lanes) in words.iter().zip(&mut chunk.words).take(record.words()) {
                 lanes[lane] = *word;
             }
             let key = resolve::key(record, &words);
             chunk.keys[lane] = key;
             strayed |= step.strayed[0] | step.strayed[1] | step.strayed[2] | step.strayed[3];
-            // Empty cells go a way of their own: no budget has velocities of 2^31.
-            let empty = key >> record.depth().bits == Class::Empty as u32;
-            chunk.dx[lane] = if empty { i32::MIN } else { step.dx };
+            // Empty cells go a way of their own: no budget has velocities of 2^30.
+            let empty = (key >> record.depth().bits == Class::Empty as u32) as i32;
+            chunk.dx[lane] = step.dx ^ (empty << 30);
             chunk.dy[lane] = step.dy;
         }
         if strayed != 0 {
-            self.count_saturated(front, thresholds, chunk.source, cells);
+            self.retake(front, thresholds, chunk, cells);
         }
-        shift_in(&mut chunk.before_dx, &chunk.dx);
-        shift_in(&mut chunk.before_dy, &chunk.dy);
-        let mut any = 0;
+        let (first_dx, first_dy) = (chunk.dx[0], chunk.dy[0]);
+        let mut apart = 0;
         for lane in 0..CHUNK {
-            let turn = (chunk.dx[lane] ^ chunk.before_dx[lane]) | (chunk.dy[lane] ^ chunk.before_dy[lane]);
-            chunk.turns[lane] = turn;
-            any |= turn;
+            apart |= (chunk.dx[lane] ^ first_dx) | (chunk.dy[lane] ^ first_dy);
         }
-        if any == 0 {
+        if apart == 0 {
             self.store_unless_empty(chunk, 0..cells);
         } else {
             self.store_runs(chunk, cells);
@@ -182,7 +179,12 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
     }
 
     /// Stores a chunk run by run.
-    fn store_runs(&mut self, chunk: &Chunk, cells: usize) {
+    fn store_runs(&mut self, chunk: &mut Chunk, cells: usize) {
+        shift_in(&mut chunk.before_dx, &chunk.dx);
+        shift_in(&mut chunk.before_dy, &chunk.dy);
+        for lane in 0..CHUNK {
+            chunk.turns[lane] = (chunk.dx[lane] ^ chunk.before_dx[lane]) | (chunk.dy[lane] ^ chunk.before_dy[lane]);
+        }
         let mut first = 0;
         while first < cells {
             let end = first + 1 + straight(chunk.turns.get(first + 1..cells).unwrap_or_default());
@@ -191,14 +193,20 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
         }
     }
 
-    /// Counts what was clamped in a chunk: rare enough to take its steps again.
+    /// Takes the steps of a chunk again, with clamps: rare.
     #[cold]
-    fn count_saturated(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], source: u32, cells: usize) {
-        for cell in (source..).take(cells) {
-            if front.class(cell) != Class::Empty
-                && let Some(mut words) = front.words_at(cell)
-            {
-                self.tally.saturated += advance::<L>(front.record(), thresholds, &mut words).saturated();
+    fn retake(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], chunk: &mut Chunk, cells: usize) {
+        for (lane, cell) in (chunk.source..).take(cells).enumerate() {
+            let (Some(mut words), Some(key)) = (front.words_at(cell), chunk.keys.get_mut(lane)) else { return };
+            let step = advance::<L, true>(front.record(), thresholds, &mut words);
+            *key = resolve::key(front.record(), &words);
+            if front.class(cell) != Class::Empty {
+                self.tally.saturated += step.saturated();
+            }
+            for (word, lanes) in words.iter().zip(&mut chunk.words) {
+                if let Some(to) = lanes.get_mut(lane) {
+                    *to = *word;
+                }
             }
         }
     }
@@ -241,18 +249,9 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
             }
             return;
         }
-        let Some(keys) = chunk.keys.get(lanes.clone()) else { return };
-        let record = self.back.record();
-        let words = record.words();
+        let words = self.back.record().words();
         let cells = cell as usize..cell as usize + lanes.len();
-        let mut wins = [0; CHUNK];
-        let Some(wins) = wins.get_mut(..lanes.len()) else { return };
-        let mut occupied = 0;
-        for ((incumbent, &challenger), win) in self.back.keys(cells.clone()).zip(keys).zip(&mut *wins) {
-            *win = if challenger < incumbent { u32::MAX } else { 0 };
-            occupied += (self.back.class_of(incumbent) != Class::Empty as u32) as u32;
-        }
-        if occupied == 0 {
+        if self.back.all_empty(cells.clone()) {
             for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
                 if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
                     for (to, &from) in to.iter_mut().zip(from) {
@@ -266,18 +265,31 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
                 }
             }
         } else {
-            self.tally.collided += occupied;
-            for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
-                if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
-                    for ((to, &from), &win) in to.iter_mut().zip(from).zip(&*wins) {
-                        *to = *to & !win | from & win;
-                    }
+            self.merge_run(chunk, lanes, cells, source);
+        }
+    }
+
+    /// Puts the lanes of a run into cells some of which are occupied.
+    fn merge_run(&mut self, chunk: &Chunk, lanes: Range<usize>, cells: Range<usize>, source: u32) {
+        let mut wins = [0; CHUNK];
+        let (Some(keys), Some(wins)) = (chunk.keys.get(lanes.clone()), wins.get_mut(..lanes.len())) else { return };
+        let mut occupied = 0;
+        for ((incumbent, &challenger), win) in self.back.keys(cells.clone()).zip(keys).zip(&mut *wins) {
+            *win = if challenger < incumbent { u32::MAX } else { 0 };
+            occupied += (self.back.class_of(incumbent) != Class::Empty as u32) as u32;
+        }
+        self.tally.collided += occupied;
+        let words = self.back.record().words();
+        for (plane, words) in self.back.planes_mut().iter_mut().zip(&chunk.words).take(words) {
+            if let (Some(to), Some(from)) = (plane.get_mut(cells.clone()), words.get(lanes.clone())) {
+                for ((to, &from), &win) in to.iter_mut().zip(from).zip(&*wins) {
+                    *to = *to & !win | from & win;
                 }
             }
-            if let Some(winners) = self.winners.get_mut(cells) {
-                for ((winner, source), &win) in winners.iter_mut().zip(source..).zip(&*wins) {
-                    *winner = *winner & !win | source & win;
-                }
+        }
+        if let Some(winners) = self.winners.get_mut(cells) {
+            for ((winner, source), &win) in winners.iter_mut().zip(source..).zip(&*wins) {
+                *winner = *winner & !win | source & win;
             }
         }
     }
