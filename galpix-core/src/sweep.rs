@@ -1,6 +1,6 @@
 //! Stages 1 and 2 fused: propagates a whole map and resolves it, in raster order, with no buffer between.
 //!
-//! Neighbours mostly move alike. A row is taken in chunks of [`CHUNK`] cells; all of a chunk's galpixels are moved at
+//! Neighbours mostly move alike. A row is taken in chunks of 64 cells; all of a chunk's galpixels are moved at
 //! once, and then each run of neighbours with equal displacements is stored as a whole, wherever it goes. The result is
 //! what [`crate::propagate::arrivals`] and [`crate::resolve::settle`] define, bit by bit: in raster order an incumbent has
 //! the smaller source, so that comparing keys alone decides.

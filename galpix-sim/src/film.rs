@@ -1,6 +1,6 @@
 //! Pictures of pictures: panels beside each other with labels, a difference made visible, and films of them.
 //!
-//! A film is an animated PNG ([`apng`]): every browser plays it, it is lossless, and one `<img>` shows it without a script.
+//! A film is an animated PNG ([`apng()`]): every browser plays it, it is lossless, and one `<img>` shows it without a script.
 
 mod apng;
 mod label;

@@ -7,7 +7,7 @@
 //! | metric | 8-bit sRGB becomes | range, best |
 //! | --- | --- | --- |
 //! | [`psnr_db`] | code values, R, G and B alike | 0 ..= 100 dB, 100 |
-//! | [`ssim`] | luma | about -1 ..= 1, 1 |
+//! | [`ssim()`] | luma | about -1 ..= 1, 1 |
 //! | [`flip`] | contrast-filtered opponent colours | 0 ..= 1, **0** |
 
 mod ssim;
@@ -158,7 +158,7 @@ mod tests {
         let row = |first: usize| Picture {
             width: 41,
             height: 1,
-            pixels: (0..41).map(|x| [if (x + first) % 2 == 0 { 0 } else { 100 }; 3]).collect(),
+            pixels: (0..41).map(|x| [if (x + first).is_multiple_of(2) { 0 } else { 100 }; 3]).collect(),
         };
         near(ssim(&row(0), &row(1), None), -0.9769, 0.012);
     }
