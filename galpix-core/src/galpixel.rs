@@ -80,8 +80,31 @@ impl<P> Copy for Static<P> {}
 impl<L: Layout, P: Profile> Budget<L> for Static<P> {
     #[inline(always)]
     fn record(&self) -> &Record {
-        const { &Record::must(Record::plan(P::BITS, L::LANES, L::Colour::BITS)) }
+        const { &<Self as Fixed<L>>::RECORD }
     }
+}
+
+/// What is known of a layout under a budget fixed at compile time, to size memory with.
+///
+/// ```
+/// use galpix_core::{budget::{Bits, Demand}, galpixel::{Fixed, Profile, Static}, layout::Full};
+/// struct Paper;
+/// impl Profile for Paper {
+///     const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 1024, recog: 8, prop: 16 }));
+/// }
+/// const WORDS: usize = 64 * 64 * <Static<Paper> as Fixed<Full>>::BYTES_PER_GALPIXEL / 4;
+/// static MAP: [u32; WORDS] = [0; WORDS];
+/// assert_eq!(MAP.len(), 64 * 64 * 5);
+/// ```
+pub trait Fixed<L: Layout>: Budget<L> {
+    /// The stored form.
+    const RECORD: Record;
+    /// Bytes of memory for one galpixel.
+    const BYTES_PER_GALPIXEL: usize = Self::RECORD.bytes();
+}
+
+impl<L: Layout, P: Profile> Fixed<L> for Static<P> {
+    const RECORD: Record = Record::must(Record::plan(P::BITS, L::LANES, L::Colour::BITS));
 }
 
 /// A budget chosen at run time, checked against the layout.

@@ -6,7 +6,7 @@ use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::{BudgetError, SetupError};
 use galpix_core::frame::{Controller, Scratch};
-use galpix_core::galpixel::{Budget, Chosen, Galpixel, Profile, Static};
+use galpix_core::galpixel::{Budget, Chosen, Fixed, Galpixel, Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
 use galpix_core::layout::{
@@ -69,6 +69,7 @@ fn every_layout_takes_the_memory_that_it_promises() {
 #[test]
 fn the_papers_example_takes_20_bytes_and_a_small_panel_8() {
     assert!(Galpixmap::<Full, Chosen<Full>>::bytes_per_galpixel(Chosen::new(Paper::BITS).unwrap()) <= 20);
+    assert_eq!(<Static<Paper> as Fixed<Full>>::BYTES_PER_GALPIXEL, 20);
     let panel = Chosen::<Velocity565>::new(Panel::BITS).unwrap();
     assert!(Galpixmap::<Velocity565, _>::bytes_per_galpixel(panel) <= 8);
     assert!(Galpixmap::<Still, Chosen<Still>>::bytes_per_galpixel(Chosen::new(Paper::BITS).unwrap()) <= 4);
