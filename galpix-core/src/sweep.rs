@@ -40,6 +40,8 @@ struct Target<'t, 'p, L, B> {
 struct Chunk {
     /// `words[word][lane]`.
     words: [[u32; CHUNK]; MAX_WORDS],
+    /// The words before the step, at the end of a row.
+    rest: [[u32; CHUNK]; MAX_WORDS],
     keys: [u32; CHUNK],
     /// Cells moved.
     dx: [i32; CHUNK],
@@ -74,6 +76,7 @@ pub fn sweep<L: Layout, B: Budget<L>>(
     let mut target = Target { back, winners, cleared: 0, tally: Tally::default() };
     let mut chunk = Chunk {
         words: [[0; CHUNK]; MAX_WORDS],
+        rest: [[0; CHUNK]; MAX_WORDS],
         keys: [0; CHUNK],
         dx: [0; CHUNK],
         dy: [0; CHUNK],
@@ -97,19 +100,19 @@ pub fn sweep<L: Layout, B: Budget<L>>(
     target.tally
 }
 
-/// A word of `cells` neighbours from `source` on; cells beyond them are left as they are in `lanes`.
+/// The chunk of a plane that begins at `source`; where fewer than [`CHUNK`] cells are left of the row, their copy in `rest`.
 #[inline(always)]
-fn copy_in(lanes: &mut [u32; CHUNK], plane: &[u32], source: u32, cells: usize) {
-    let Some(from) = plane.get(source as usize..) else { return };
-    if cells == CHUNK {
-        if let Some(from) = from.first_chunk::<CHUNK>() {
-            *lanes = *from;
-        }
-    } else {
-        for (lane, from) in lanes.iter_mut().zip(from).take(cells) {
-            *lane = *from;
-        }
+fn lanes_of<'l>(plane: &'l [u32], source: u32, cells: usize, rest: &'l mut [u32; CHUNK]) -> &'l [u32; CHUNK] {
+    let plane = plane.get(source as usize..).unwrap_or_default();
+    if cells == CHUNK
+        && let Some(lanes) = plane.first_chunk::<CHUNK>()
+    {
+        return lanes;
     }
+    for (to, &from) in rest.iter_mut().zip(plane).take(cells) {
+        *to = from;
+    }
+    rest
 }
 
 /// `lanes` moved up by one lane; the first stays.
@@ -134,13 +137,14 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
     #[inline(always)]
     fn take(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], chunk: &mut Chunk, cells: usize) {
         let record = front.record();
-        for (lanes, plane) in chunk.words.iter_mut().zip(front.planes()).take(record.words()) {
-            copy_in(lanes, plane, chunk.source, cells);
+        let mut sources = [&[0; CHUNK]; MAX_WORDS];
+        for ((lanes, plane), rest) in sources.iter_mut().zip(front.planes()).zip(&mut chunk.rest).take(record.words()) {
+            *lanes = lanes_of(plane, chunk.source, cells, rest);
         }
         let mut strayed = 0;
         for lane in 0..CHUNK {
             let mut words = [0; MAX_WORDS];
-            for (word, lanes) in words.iter_mut().zip(&chunk.words).take(record.words()) {
+            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
                 *word = lanes[lane];
             }
             let step = advance::<L, false>(record, thresholds, &mut words);
