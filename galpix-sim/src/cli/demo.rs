@@ -7,7 +7,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::choices::Extrapolation;
-use super::{CliError, print};
+use super::{CliError, print, say};
 use crate::capture::ImportOptions;
 use crate::experiment::{self, FrameReport, PositionReport, Request, RunReport, Shown, Source, TruthReport};
 use crate::film::{self, Colours};
@@ -85,7 +85,7 @@ fn sources() -> Vec<Source> {
     if capture.exists() {
         match Source::open(&capture.to_string_lossy(), &ImportOptions::default()) {
             Ok(source) => sources.push(source),
-            Err(error) => eprintln!("galpix: {error}"),
+            Err(error) => say(&format!("galpix: {error}")),
         }
     }
     sources
