@@ -223,26 +223,48 @@ fn extend_is_galdebris_where_a_whole_row_was_unobscured() {
 
 #[test]
 fn what_extend_continued_loses_against_a_galpixel_however_near_it_is() {
-    let before = &["AABB..  cc33..  --}}..", "......  ......  ......", "...D..  ...f..  ...^.."];
+    let before = &["BBAA  33cc  {{--", "....  ....  ....", "D...  f...  ^..."];
     let after: &[&[&str]] = &[
-        &["AAaaBB  ##!!##  cccc33", "...D..  ...#..  ...f..", "...d..  ...!..  ...f.."],
+        &["aaAA  !!##  cccc", "D...  #...  f...", "d...  !...  f..."],
         // D is behind what was put there, and comes from a galpixel of the update.
-        &["AAaDdd  ##~#!!  cccfff", "...d..  ...~..  ...f..", "...d..  ...!..  ...f.."],
+        &["DaAA  #~##  fccc", "d...  ~...  f...", "d...  !...  f..."],
     ];
     let tally = frames(Rung::Extend, &[Colour, Classes, Depth], before, after);
-    assert_eq!((tally.collided, tally.lost), (1, 2));
+    assert_eq!((tally.collided, tally.lost), (1, 0));
+}
+
+/// What was never known is no surface, on either side: with nothing beside it, a cell is as galdebris leaves it.
+#[test]
+#[ignore = "an empty cell on the left is continued as a black surface at the nearest depth"]
+fn extend_does_not_continue_what_was_never_known() {
+    let panels = &[Colour, Classes, Depth, Motion];
+    for rung in [Rung::Galdebris, Rung::Extend] {
+        frames(
+            rung,
+            panels,
+            &["....  ....  ....", "B...  3...  ^..."],
+            &[&["B...  #...  3...  ^...", "b...  !...  3...  ^..."]],
+        );
+        frames(
+            rung,
+            panels,
+            &["....  ....  ....", "..B.  ..3.  ..^."],
+            &[&["..B.  ..#.  ..3.  ..^.", "..b.  ..!.  ..3.  ..^."]],
+        );
+    }
 }
 
 #[test]
 fn a_cell_of_which_nothing_was_ever_known_keeps_its_colour() {
     for rung in Rung::ALL {
-        with_drawing(&["AB....  33....  -}...."], |controller| {
+        with_drawing(&["AB....  c3....  -}...."], |controller| {
             let colour_only = Galpixel { class: Class::Empty, colour: [24; 3], ..Galpixel::default() };
             controller.front_mut().store(4, 0, &colour_only).unwrap();
             Art::of(controller.front(), &[Classes, Shown]).assert("before", &["##....  AB__C_"]);
             let tally = controller.step(&with_rung(rung));
             let row = match rung {
-                Rung::None => "#..#..  A__BC_",
+                // Holes are shown black.
+                Rung::None => "#..#..  A__B__",
                 Rung::Hold => "#..#..  AB_BC_",
                 Rung::Debris => "#~.#..  AB_BC_",
                 Rung::Bullet | Rung::Galdebris => "#!.#..  AB_BC_",
