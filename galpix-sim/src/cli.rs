@@ -11,6 +11,9 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use galpix_core::budget::Bits;
+
+use crate::experiment::{self, ExperimentError, Request, Source};
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -109,6 +112,13 @@ fn say(text: &str) {
 /// A text from outside without the characters that command a terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// Refuses a budget that cannot exist, before a folder is made for it.
+fn check(source: &Source, request: &Request) -> Result<(), CliError> {
+    let frames = request.frames.unwrap_or(source.frames());
+    let demand = experiment::demand(&source.update(), frames, request);
+    Bits::derive(demand).map(|_| ()).map_err(|error| CliError::unusable(ExperimentError::from(error)))
 }
 
 /// Prints a line, or several, on standard output. A reader that has gone away is no failure.

@@ -293,6 +293,7 @@ fn a_run_that_cannot_be_made_is_refused_with_a_remedy() {
         ("run still --out file", &["file", "--out"]),
         ("run still --out file/deeper", &["file/deeper", "--out"]),
         ("demo --out file", &["file", "--out"]),
+        ("demo --prop 1", &["2 frames or more"]),
         ("walk", &["walk", "--help"]),
         ("budget --jason", &["--jason", "--help"]),
     ] {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::choices::Extrapolation;
-use super::{CliError, print, print_json, printable, say};
+use super::{CliError, check, print, print_json, printable, say};
 use crate::experiment::{self, RunReport, Source};
 use crate::progress;
 
@@ -29,6 +29,7 @@ impl Run {
     pub fn run(&self) -> Result<(), CliError> {
         let request = self.extrapolation.request().map_err(CliError::Unusable)?;
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
+        check(&source, &request)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
         let frames = request.frames.unwrap_or(source.frames());
