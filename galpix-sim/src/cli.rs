@@ -9,7 +9,11 @@ mod scenes;
 use std::io::Write;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+use galpix_core::budget::Bits;
+
+use crate::experiment::{self, ExperimentError, Request, Source};
 
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
@@ -36,7 +40,12 @@ impl CliError {
 
 /// Pictures that keep moving between updates: a simulator of galpixmaps in fixed point.
 #[derive(Debug, Parser)]
-#[command(name = "galpix", version, about, max_term_width = 100)]
+#[command(
+    name = "galpix",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 done, 2 unusable arguments or input, 1 anything else."
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
@@ -57,8 +66,11 @@ enum Command {
 /// Parses the arguments, does what they say, and tells how it ended.
 #[must_use]
 pub fn main() -> ExitCode {
-    let command = Arguments::parse().command.unwrap_or(Command::Demo(demo::Demo::default()));
-    let result = match command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return unparsed(&error),
+    };
+    let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
         Command::Budget(budget) => budget.run(),
@@ -67,10 +79,46 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("galpix: {error}");
+            say(&format!("galpix: {error}"));
             ExitCode::from(if matches!(error, CliError::Unusable(_)) { 2 } else { 1 })
         }
     }
+}
+
+/// Prints the help or the version that was asked for, or why the arguments cannot be used, in one sentence.
+fn unparsed(error: &clap::Error) -> ExitCode {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        // A reader that has gone away is no failure.
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let reason: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let reason = reason.join(" ");
+    say(&format!("galpix: {}; `--help` tells what can be given", printable(reason.trim_start_matches("error: "))));
+    ExitCode::from(2)
+}
+
+/// Writes a line on standard error. A reader that has gone away is no failure.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// A text from outside without the characters that command a terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// Refuses a budget that cannot exist, before a folder is made for it.
+fn check(source: &Source, request: &Request) -> Result<(), CliError> {
+    let frames = request.frames.unwrap_or(source.frames());
+    let demand = experiment::demand(&source.update(), frames, request);
+    Bits::derive(demand).map(|_| ()).map_err(|error| CliError::unusable(ExperimentError::from(error)))
 }
 
 /// Prints a line, or several, on standard output. A reader that has gone away is no failure.

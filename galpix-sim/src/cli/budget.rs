@@ -35,6 +35,7 @@ enum LayoutChoice {
 
 /// Arguments of `galpix budget`.
 #[derive(Debug, Default, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Budget {
     /// D, the extent of the display in pixels
     #[arg(long, value_name = "PX", default_value_t = 1024)]

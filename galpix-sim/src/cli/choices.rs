@@ -96,6 +96,7 @@ impl From<AccelerationChoice> for ImportOptions {
 
 /// How an update is extrapolated.
 #[derive(Clone, Debug, Default, Args)]
+#[command(allow_negative_numbers = true)]
 pub struct Extrapolation {
     /// Frames to extrapolate [default: what the source is meant for]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]

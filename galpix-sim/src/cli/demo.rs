@@ -7,7 +7,7 @@ use clap::Args;
 use rayon::prelude::*;
 
 use super::choices::Extrapolation;
-use super::{CliError, print};
+use super::{CliError, check, print, say};
 use crate::capture::ImportOptions;
 use crate::experiment::{self, FrameReport, PositionReport, Request, RunReport, Shown, Source, TruthReport};
 use crate::film::{self, Colours};
@@ -43,8 +43,9 @@ impl Demo {
     pub fn run(&self) -> Result<(), CliError> {
         let started = Instant::now();
         let request = Request { perceptual: false, ..self.extrapolation.request().map_err(CliError::Unusable)? };
-        std::fs::create_dir_all(&self.out).map_err(|error| CliError::unwritable(&self.out, &error))?;
         let sources = sources();
+        sources.iter().try_for_each(|source| check(source, &request))?;
+        std::fs::create_dir_all(&self.out).map_err(|error| CliError::unwritable(&self.out, &error))?;
         let frames: u64 = sources.iter().map(|source| u64::from(request.frames.unwrap_or(source.frames())) + 1).sum();
         let bar = progress::bar(frames, "demo");
         let told: Vec<(RunReport, Story)> = sources
@@ -85,7 +86,7 @@ fn sources() -> Vec<Source> {
     if capture.exists() {
         match Source::open(&capture.to_string_lossy(), &ImportOptions::default()) {
             Ok(source) => sources.push(source),
-            Err(error) => eprintln!("galpix: {error}"),
+            Err(error) => say(&format!("galpix: {error}")),
         }
     }
     sources

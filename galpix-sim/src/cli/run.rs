@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::choices::Extrapolation;
-use super::{CliError, print, print_json};
+use super::{CliError, check, print, print_json, printable, say};
 use crate::experiment::{self, RunReport, Source};
 use crate::progress;
 
@@ -29,10 +29,11 @@ impl Run {
     pub fn run(&self) -> Result<(), CliError> {
         let request = self.extrapolation.request().map_err(CliError::Unusable)?;
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
+        check(&source, &request)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
         let frames = request.frames.unwrap_or(source.frames());
-        let bar = progress::bar(u64::from(frames), source.name());
+        let bar = progress::bar(u64::from(frames), &printable(source.name()));
         let mut written = Ok(());
         let report = experiment::run(&source, &request, |shown| {
             let path = out.join(format!("{:04}.png", shown.frame));
@@ -46,7 +47,7 @@ impl Run {
         .map_err(CliError::unusable)?;
         bar.finish_and_clear();
         written?;
-        eprintln!("{} frames in {}", report.frames.len(), out.display());
+        say(&format!("{} frames and the update in {}", report.frames.len(), out.display()));
         if self.json { print_json(&report) } else { print(&table(&report)) }
     }
 }
@@ -65,8 +66,9 @@ fn decibels(value: Option<f64>) -> String {
 fn table(report: &RunReport) -> String {
     let mut lines = vec![
         format!(
-            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes a galpixel, {} rounding, fill {}, certified {:.4} px",
-            report.source,
+            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes a galpixel, {} rounding, fill {}, \
+             certified {:.4} px up to frame {}",
+            printable(&report.source),
             report.width,
             report.height,
             report.budget.extent,
@@ -75,7 +77,8 @@ fn table(report: &RunReport) -> String {
             report.budget.stored_bytes_per_galpixel,
             report.rounding,
             report.fill,
-            report.certificate.total_px
+            report.certificate.total_px,
+            report.budget.prop
         ),
         format!(
             "{} galpixels, {} cells start empty, {} fields clamped; {:.1} ns a galpixel",
