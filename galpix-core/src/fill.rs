@@ -86,7 +86,7 @@ pub fn fill<L: Layout, B: Budget<L>>(
     tally: &mut Tally,
 ) {
     let rounds = if rung.tells_surfaces() { reach.clamp(1, 16) } else { 1 };
-    let mut filler = Filler { front, back, winners, edges, rung, tally };
+    let mut filler = Filler { front, back, winners, edges, rung, tally, left: None, right: 0 };
     for round in 0..rounds {
         filler.round(round, round + 1 == rounds);
     }
@@ -99,6 +99,10 @@ struct Filler<'f, 'p, 'q, L, B> {
     edges: &'f [u32],
     rung: Rung,
     tally: &'f mut Tally,
+    /// The last cell of this row, left of the one that is visited, that was not empty when the round began.
+    left: Option<u32>,
+    /// The column of the first such cell to the right, as far as it is known.
+    right: u32,
 }
 
 impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
@@ -106,14 +110,19 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     fn round(&mut self, round: u32, last: bool) {
         let grid = *self.back.grid();
         for (y, &row) in (0..).zip(grid.starts()) {
+            (self.left, self.right) = (None, 0);
             let mut x = 0;
             while x < grid.width() {
                 let run = (grid.width() - x).min(RUN);
                 // Most runs have no hole: look at all of a run before looking at any of its cells.
-                if self.back.empties(row + x, run) > 0 {
+                if self.back.empties(row + x, run) == 0 {
+                    self.left = Some(row + x + run - 1);
+                } else {
                     for x in x..x + run {
                         if self.back.class(row + x) == Class::Empty {
                             self.hole(row, x, y, round, last);
+                        } else {
+                            self.left = Some(row + x);
                         }
                     }
                 }
@@ -138,27 +147,21 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
         }
     }
 
-    /// The farther of the two surfaces at the ends of the run of holes that a cell of a row lies in.
-    ///
-    /// Cells to the left are decided already: what lies there either arrived, or is a fill that was itself taken from the
-    /// end of this run; the right end is looked up. So each cell of a run has the same answer.
-    fn beside(&self, row: u32, x: u32) -> Option<Words> {
-        let record = self.back.record();
-        let left = if x > 0 { self.back.words_at(row + x - 1) } else { None };
-        if let Some(left) = left
-            && record.class().unsigned(&left) == Class::JustUnobscured as u32
-        {
-            return Some(left);
-        }
+    /// The farther of the two surfaces at the ends of the run of holes that column `x` of a row lies in; the left one of
+    /// two that are equally far.
+    fn beside(&mut self, row: u32, x: u32) -> Option<Words> {
         let width = self.back.grid().width();
-        let right = (x + 1..width).find(|&x| self.back.class(row + x) != Class::Empty);
-        let right = right.and_then(|x| self.back.words_at(row + x));
-        let farther = match (left, right) {
-            (Some(left), Some(right)) if record.depth().unsigned(&right) > record.depth().unsigned(&left) => right,
-            (Some(left), _) => left,
-            (None, right) => right?,
-        };
-        Some(farther)
+        if self.right <= x {
+            let taken = |x: &u32| self.back.class(row + x) != Class::Empty;
+            self.right = (x + 1..width).find(taken).unwrap_or(width);
+        }
+        let left = self.left.and_then(|cell| self.back.words_at(cell));
+        let right = if self.right < width { self.back.words_at(row + self.right) } else { None };
+        let depth = |words: &Words| self.back.record().depth().unsigned(words);
+        match (left, right) {
+            (Some(left), Some(right)) => Some(if depth(&right) > depth(&left) { right } else { left }),
+            (one, other) => one.or(other),
+        }
     }
 
     /// What the rung puts into a cell that is no bullet hole.

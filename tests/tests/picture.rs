@@ -235,7 +235,6 @@ fn what_extend_continued_loses_against_a_galpixel_however_near_it_is() {
 
 /// What was never known is no surface, on either side: with nothing beside it, a cell is as galdebris leaves it.
 #[test]
-#[ignore = "an empty cell on the left is continued as a black surface at the nearest depth"]
 fn extend_does_not_continue_what_was_never_known() {
     let panels = &[Colour, Classes, Depth, Motion];
     for rung in [Rung::Galdebris, Rung::Extend] {
