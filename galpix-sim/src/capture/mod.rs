@@ -26,6 +26,8 @@ mod poses;
 mod raster;
 mod samples;
 mod source;
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 
