@@ -5,7 +5,7 @@ use std::path::Path;
 use super::Census;
 use super::camera::{Distance, Track};
 use super::error::CaptureError;
-use super::manifest::Flow;
+use super::manifest::{Background, Flow, Manifest};
 use super::raster;
 use super::source::{Size, Source};
 
@@ -26,29 +26,38 @@ pub enum AccelerationPolicy {
 
 /// Chains a second flow: `p1 = x + f1(x)`, `p2 = p1 + f2(p1)` (bilinear), and the parabola through `x`, `p1`, `p2`.
 ///
-/// Both flows span `flow.frames` display frames. Where the second one is unknown, or `p1` is outside of the picture, the
-/// motion stays as it is and is counted.
+/// The first displacement spans the `n1` display frames of the manifest's motion, the second `n2 = flow.frames`. Where the
+/// second one is unknown, or `p1` is outside of the picture, the motion stays as it is and is counted. So it does, uncounted,
+/// in cells that start empty, and in the background, whose motion does not come from the flow.
 pub(super) fn chain(
     motion: &mut [Option<Track>],
+    manifest: &Manifest,
     flow: &Flow,
+    distances: &Option<Vec<Distance>>,
     folder: &Path,
     size: Size,
     census: &mut Census,
 ) -> Result<(), CaptureError> {
     let next = raster::flow(&Source::open(&folder.join(&flow.file))?, size)?;
-    let frames = f64::from(flow.frames);
-    for ((x, y), track) in size.positions().zip(motion) {
-        let Some(track) = track else { continue };
-        let first = [track.velocity[0] * frames, track.velocity[1] * frames];
+    let (n1, n2) = (f64::from(manifest.update.motion.frames()), f64::from(flow.frames));
+    let from_flow = |cell: usize| match distances.as_ref().map(|distances| distances[cell]) {
+        Some(Distance::Unknown) => false,
+        Some(Distance::Far) => manifest.update.background == Background::Given,
+        Some(Distance::At(_)) | None => true,
+    };
+    for (cell, ((x, y), track)) in size.positions().zip(motion).enumerate() {
+        let Some(track) = track.as_mut().filter(|_| from_flow(cell)) else { continue };
+        let first = [track.velocity[0] * n1, track.velocity[1] * n1];
         let Some(second) = bilinear(&next, size, x as f64 + first[0], y as f64 + first[1]) else {
             census.unknown_acceleration += 1;
             continue;
         };
         for component in 0..2 {
-            // p2 - 2 p1 + x = f2 - f1, and p1 is reached exactly: f1 = v n + a n² / 2.
-            let acceleration = (second[component] - first[component]) / (frames * frames);
+            // f1 = v n1 + a n1² / 2 and f1 + f2 = v (n1 + n2) + a (n1 + n2)² / 2.
+            let slope = first[component] / n1;
+            let acceleration = 2.0 * (second[component] / n2 - slope) / (n1 + n2);
             track.acceleration[component] = acceleration;
-            track.velocity[component] = first[component] / frames - acceleration * frames / 2.0;
+            track.velocity[component] = slope - acceleration * n1 / 2.0;
         }
     }
     Ok(())
@@ -60,7 +69,8 @@ fn bilinear(flow: &[Option<[f64; 2]>], size: Size, x: f64, y: f64) -> Option<[f6
         return None;
     }
     let (left, top) = (x.floor() as usize, y.floor() as usize);
-    let (right, below) = ((left + 1).min(size.width - 1), (top + 1).min(size.height - 1));
+    // On a row or column exactly, the next one has no weight and need not be known.
+    let (right, below) = (x.ceil() as usize, y.ceil() as usize);
     let (part_x, part_y) = (x - x.floor(), y - y.floor());
     let at = |x: usize, y: usize| flow.get(y * size.width + x).copied().flatten();
     let (a, b, c, d) = (at(left, top)?, at(right, top)?, at(left, below)?, at(right, below)?);

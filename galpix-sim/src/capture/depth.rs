@@ -29,7 +29,7 @@ fn numbers(map: &Map, folder: &Path, size: Size) -> Result<Vec<f64>, CaptureErro
 
 fn distance(map: &Map, raw: f64) -> Distance {
     let value = raw * map.scale;
-    if map.invalid.0.contains(&raw) {
+    if map.invalid.holds(raw) {
         Distance::Unknown
     } else if map.far.is_some_and(|far| raw >= far) {
         Distance::Far
@@ -42,5 +42,5 @@ fn distance(map: &Map, raw: f64) -> Distance {
 
 /// No parallax at all: infinitely far, unless the manifest says that zero means unknown.
 fn zero_disparity(map: &Map) -> Distance {
-    if map.invalid.0.contains(&0.0) { Distance::Unknown } else { Distance::Far }
+    if map.invalid.holds(0.0) { Distance::Unknown } else { Distance::Far }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a capture was refused. `Display` is one sentence: the file, what is wrong with it, and the mend.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}: {what}; {mend}", file.display())]
+#[error("{}: {what}; {mend}", one_line(&file.display().to_string()))]
 pub struct CaptureError {
     /// The file at fault: the manifest, or a file that it names.
     pub file: PathBuf,
@@ -21,7 +21,7 @@ impl CaptureError {
     }
 }
 
-/// `text` with every run of blanks and control characters replaced by one blank.
+/// `text` (a file's name may hold line breaks, too) with every run of blanks and control characters replaced by one blank.
 fn one_line(text: &str) -> String {
     text.split(|c: char| c.is_whitespace() || c.is_control())
         .filter(|word| !word.is_empty())

@@ -114,6 +114,13 @@ enum OneOrMany {
     Many(Vec<f64>),
 }
 
+impl Invalid {
+    /// Whether `raw` is one of the values; compared as 32-bit floats, as most files hold them.
+    pub fn holds(&self, raw: f64) -> bool {
+        self.0.iter().any(|&value| value == raw || value as f32 == raw as f32)
+    }
+}
+
 impl From<OneOrMany> for Invalid {
     fn from(given: OneOrMany) -> Self {
         match given {
@@ -132,6 +139,18 @@ pub(super) enum Motion {
     Planes(Passes),
     BlenderVector(Passes),
     Camera(Camera),
+}
+
+impl Motion {
+    /// Display frames that its displacement spans.
+    pub const fn frames(&self) -> u32 {
+        match self {
+            Self::Disparity(motion) => motion.frames,
+            Self::Flow(flow) => flow.frames,
+            Self::Planes(passes) | Self::BlenderVector(passes) => passes.frames,
+            Self::Camera(camera) => camera.frames,
+        }
+    }
 }
 
 /// Horizontal motion of `sign * raw * scale` pixels in `frames` display frames.
@@ -329,6 +348,20 @@ impl Manifest {
             Motion::Flow(flow) => frames("motion.frames", flow.frames)?,
             Motion::Planes(passes) | Motion::BlenderVector(passes) => frames("motion.frames", passes.frames)?,
             Motion::Camera(camera) => camera.check("motion")?,
+        }
+        if matches!(
+            (&self.update.motion, &self.update.depth),
+            (Motion::Camera(_), Depth::Disparity(_) | Depth::Speed(_))
+        ) {
+            let mend = "give a depth map of kind \"z\", or another motion";
+            return Err(("moves a camera past cells whose distance is unknown".into(), mend));
+        }
+        if self.update.background == Background::Camera
+            && self.update.camera.is_none()
+            && !matches!(self.update.motion, Motion::Camera(_))
+        {
+            let mend = "add an [update.camera] with intrinsics and poses, or choose still or empty";
+            return Err(("asks for background = \"camera\" and gives no camera".into(), mend));
         }
         if let Some(Acceleration::NextFlow(flow)) = &self.update.acceleration {
             frames("acceleration.frames", flow.frames)?;

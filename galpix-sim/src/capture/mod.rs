@@ -26,6 +26,8 @@ mod poses;
 mod raster;
 mod samples;
 mod source;
+#[cfg(test)]
+mod tests;
 
 use std::path::Path;
 
@@ -95,7 +97,7 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     let distances = depth::read(&update.depth, folder, size)?;
     let mut motion = motion::read(&manifest, folder, size, &distances, &mut census)?;
     if let Some(manifest::Acceleration::NextFlow(flow)) = &update.acceleration {
-        acceleration::chain(&mut motion, flow, folder, size, &mut census)?;
+        acceleration::chain(&mut motion, &manifest, flow, &distances, folder, size, &mut census)?;
     }
     if matches!(update.acceleration, Some(manifest::Acceleration::No)) {
         acceleration::leave_out(&mut motion);

@@ -37,13 +37,13 @@ pub(super) fn read(
         Background::Given => None,
         Background::Empty => Some(vec![None; size.cells()]),
         Background::Still => Some(vec![Some(Track::default()); size.cells()]),
-        Background::Camera => Some(match (&update.motion, &update.camera) {
-            (_, Some(camera)) | (Motion::Camera(camera), None) => from_camera(camera, folder, size, distances, census)?,
-            _ => {
-                let mend = "add an [update.camera] with intrinsics and poses, or choose still or empty";
-                return Err(CaptureError::new(folder, "asks for background = \"camera\" and gives no camera", mend));
+        Background::Camera => match (&update.motion, &update.camera) {
+            (_, Some(camera)) | (Motion::Camera(camera), None) => {
+                Some(from_camera(camera, folder, size, distances, census)?)
             }
-        }),
+            // The manifest was refused.
+            _ => None,
+        },
     };
     if let (Some(background), Some(distances)) = (background, distances) {
         for ((track, far), distance) in tracks.iter_mut().zip(background).zip(distances) {
@@ -74,7 +74,7 @@ fn disparity(motion: &DisparityMotion, folder: &Path, size: Size) -> Result<Vec<
     let source = Source::open(&folder.join(&motion.file))?;
     let numbers = raster::numbers(&source, motion.channel.as_deref(), motion.format, size)?;
     let along = motion.sign * motion.scale / f64::from(motion.frames);
-    let track = |raw: f64| (!motion.invalid.0.contains(&raw)).then(|| steady([raw * along, 0.0]));
+    let track = |raw: f64| (!motion.invalid.holds(raw)).then(|| steady([raw * along, 0.0]));
     Ok(numbers.into_iter().map(track).collect())
 }
 
@@ -135,7 +135,8 @@ fn from_camera(
     census: &mut Census,
 ) -> Result<Vec<Option<Track>>, CaptureError> {
     let path = poses::read(camera, folder)?;
-    census.notes.extend(path.note.clone());
+    // The background may come from the same path.
+    census.notes.extend(path.note.clone().filter(|note| !census.notes.contains(note)));
     let Some(distances) = distances else {
         let mend = "give a depth map of kind \"z\", or another motion";
         return Err(CaptureError::new(&folder.join(&camera.poses), "moves a camera past cells of unknown depth", mend));

@@ -38,8 +38,14 @@ pub(super) fn assemble(
                 None
             }
             (_, Some(track)) => {
-                census.known += 1;
-                Some(sample(colour, depth_kind, distance, unit, &track))
+                let sample = sample(colour, depth_kind, distance, unit, &track);
+                if is_finite(&sample) {
+                    census.known += 1;
+                    Some(sample)
+                } else {
+                    census.unknown_motion += 1;
+                    None
+                }
             }
         };
         known.unwrap_or(Sample { colour, known: Known::ColourOnly, ..Sample::default() })
@@ -58,6 +64,12 @@ fn extreme(distances: &[Distance], start: f64, pick: fn(f64, f64) -> f64) -> f64
 
 fn speed(track: &Track) -> f64 {
     track.velocity[0].hypot(track.velocity[1])
+}
+
+/// At absurd distances the inverse square of one leaves the range of numbers.
+fn is_finite(sample: &Sample) -> bool {
+    let mut all = sample.velocity.iter().chain(&sample.acceleration).chain([&sample.depth]);
+    all.all(|value| value.is_finite())
 }
 
 fn sample(colour: [u8; 3], kind: DepthKind, distance: Option<Distance>, unit: f64, track: &Track) -> Sample {

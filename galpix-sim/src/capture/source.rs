@@ -67,9 +67,8 @@ impl Source {
         let unreadable = |e: std::io::Error| {
             CaptureError::new(path, format!("cannot be read ({e})"), "correct the path or add the file")
         };
-        let file = File::open(path).map_err(unreadable)?;
-        let about = file.metadata().map_err(unreadable)?;
-        // A device or a pipe has no length that could be checked before reading.
+        // A device or a pipe has no length that could be checked before reading, and merely opening a pipe may wait forever.
+        let about = std::fs::metadata(path).map_err(unreadable)?;
         if !about.is_file() {
             return Err(CaptureError::new(path, "is not a regular file", "name a file"));
         }
@@ -77,6 +76,7 @@ impl Source {
             let what = format!("has {} bytes, more than the {MAX_BYTES} that are read", about.len());
             return Err(CaptureError::new(path, what, "crop or scale the capture down"));
         }
+        let file = File::open(path).map_err(unreadable)?;
         let mut bytes = Vec::new();
         file.take(MAX_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
         Ok(Self { path: path.to_path_buf(), bytes })

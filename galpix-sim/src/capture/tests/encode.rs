@@ -1,0 +1,127 @@
+//! Writers of small files, each from the format's description and none from the readers.
+
+use std::io::Cursor;
+
+use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, Layer, LayerAttributes, WritableImage};
+use half::f16;
+use png::{BitDepth, ColorType};
+
+/// A PNG of 8-bit values.
+pub fn png8(width: u32, height: u32, colour: ColorType, values: &[u8]) -> Vec<u8> {
+    png(width, height, colour, BitDepth::Eight, values)
+}
+
+/// A PNG of 16-bit values.
+pub fn png16(width: u32, height: u32, colour: ColorType, values: &[u16]) -> Vec<u8> {
+    let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_be_bytes()).collect();
+    png(width, height, colour, BitDepth::Sixteen, &bytes)
+}
+
+fn png(width: u32, height: u32, colour: ColorType, depth: BitDepth, bytes: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
+    encoder.set_color(colour);
+    encoder.set_depth(depth);
+    encoder.write_header().unwrap().write_image_data(bytes).unwrap();
+    file
+}
+
+/// A JPEG of the best quality.
+pub fn jpeg(width: u32, height: u32, rgb: &[u8]) -> Vec<u8> {
+    let mut file = Vec::new();
+    let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, 100);
+    encoder.encode(rgb, width, height, image::ExtendedColorType::Rgb8).unwrap();
+    file
+}
+
+/// How an EXR stores its channels.
+#[derive(Clone, Copy, Debug)]
+pub enum Precision {
+    Half,
+    Float,
+}
+
+/// One name and its values.
+pub type Channel<'a> = (&'a str, Vec<f32>);
+
+/// The channels with their names borrowed.
+pub fn borrowed(list: &[(String, Vec<f32>)]) -> Vec<Channel<'_>> {
+    list.iter().map(|(name, values)| (name.as_str(), values.clone())).collect()
+}
+
+fn channels(channels: &[Channel], precision: Precision) -> AnyChannels<FlatSamples> {
+    let channel = |(name, values): &Channel| {
+        let samples = match precision {
+            Precision::Half => FlatSamples::F16(values.iter().map(|&v| f16::from_f32(v)).collect()),
+            Precision::Float => FlatSamples::F32(values.clone()),
+        };
+        AnyChannel::new(*name, samples)
+    };
+    AnyChannels::sort(channels.iter().map(channel).collect())
+}
+
+/// An EXR with one part.
+pub fn exr(width: usize, height: usize, precision: Precision, list: &[Channel]) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    Image::from_channels((width, height), channels(list, precision)).write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
+/// An EXR with several named parts.
+pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) -> Vec<u8> {
+    let part = |(name, list): &(&str, Vec<Channel>)| {
+        let attributes = LayerAttributes::named(*name);
+        Layer::new((width, height), attributes, exr::prelude::Encoding::FAST_LOSSLESS, channels(list, Precision::Float))
+    };
+    let layers: Vec<_> = parts.iter().map(part).collect();
+    let bounds = exr::prelude::IntegerBounds::from_dimensions((width, height));
+    let image = Image::from_layers(exr::prelude::ImageAttributes::new(bounds), layers);
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
+/// The layout of `.flo` and `.dpt`.
+pub fn pieh(width: i32, height: i32, values: &[f32]) -> Vec<u8> {
+    let mut file = 202_021.25_f32.to_le_bytes().to_vec();
+    file.extend([width, height].iter().flat_map(|side| side.to_le_bytes()));
+    file.extend(values.iter().flat_map(|value| value.to_le_bytes()));
+    file
+}
+
+/// A `.npy` of version 1 or, above 1, with the longer header.
+pub fn npy(version: u8, descr: &str, fortran: bool, shape: &str, body: &[u8]) -> Vec<u8> {
+    let fortran = if fortran { "True" } else { "False" };
+    let mut header = format!("{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': {shape}, }}");
+    let before = if version == 1 { 10 } else { 12 };
+    while (before + header.len() + 1) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut file = b"\x93NUMPY".to_vec();
+    file.extend([version, 0]);
+    match version {
+        1 => file.extend((header.len() as u16).to_le_bytes()),
+        _ => file.extend((header.len() as u32).to_le_bytes()),
+    }
+    file.extend(header.as_bytes());
+    file.extend(body);
+    file
+}
+
+/// A little-endian float32 `.npy`.
+pub fn npy_f4(shape: &str, values: &[f32]) -> Vec<u8> {
+    let body: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    npy(1, "<f4", false, shape, &body)
+}
+
+/// A PFM from rows given from top to bottom, `width * bands` values each.
+pub fn pfm(width: usize, height: usize, bands: usize, little: bool, values: &[f32]) -> Vec<u8> {
+    let (tag, scale) = (if bands == 3 { "PF" } else { "Pf" }, if little { "-1.0" } else { "1.0" });
+    let mut file = format!("{tag}\n{width} {height}\n{scale}\n").into_bytes();
+    for row in values.chunks(width * bands).rev() {
+        let bytes = |v: &f32| if little { v.to_le_bytes() } else { v.to_be_bytes() };
+        file.extend(row.iter().flat_map(bytes));
+    }
+    file
+}

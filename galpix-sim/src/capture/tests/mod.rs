@@ -1,0 +1,14 @@
+//! Every format written small and read back, every refusal, and the captures of the test data.
+
+mod acceleration;
+mod camera;
+mod colour;
+mod data;
+mod depth;
+mod encode;
+mod flow;
+mod folder;
+mod hostile;
+mod manifest;
+mod maps;
+mod passes;
