@@ -78,8 +78,8 @@ pub(super) fn tracks(path: &Path3, frames: u32, size: Size, distances: &[Distanc
         let second = views.get(1);
         let (d1, d2) = (moved(first)?, second.map(moved));
         let mut track = Track::default();
-        for c in 0..3 {
-            let slope = d1[c] / first.steps;
+        for (c, d1) in d1.into_iter().enumerate() {
+            let slope = d1 / first.steps;
             let bend = match (d2, second) {
                 (Some(d2), Some(second)) => 2.0 * (slope - d2?[c] / second.steps) / (first.steps - second.steps),
                 _ => 0.0,

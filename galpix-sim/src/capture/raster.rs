@@ -47,7 +47,7 @@ pub(super) fn numbers(
 
 /// Reads a displacement for each pixel: `None` where it is unknown (NaN, or a size of 1e9 and more).
 pub(super) fn flow(source: &Source, size: Size) -> Result<Vec<Option<[f64; 2]>>, CaptureError> {
-    let Bands { bands, .. } = match source.format()? {
+    let Bands { bands } = match source.format()? {
         Format::Pieh => flo::read(source, size)?,
         Format::Png => png_raster::kitti_flow(source, size)?,
         Format::Npy => npy::read(source, size)?,
