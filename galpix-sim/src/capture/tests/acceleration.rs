@@ -24,8 +24,7 @@ fn both_ends_of_two_chained_flows_are_reached_exactly() {
         .with("b.flo", flo(|x, y| second(x as f64, y as f64).map(|v| v as f32)));
     for (first_frames, second_frames) in [(1, 1), (8, 8), (8, 4), (2, 6)] {
         let motion = format!("{{ kind = \"flow\", file = \"a.flo\", frames = {first_frames} }}");
-        let next =
-            format!("acceleration = {{ kind = \"next-flow\", file = \"b.flo\", frames = {second_frames} }}");
+        let next = format!("acceleration = {{ kind = \"next-flow\", file = \"b.flo\", frames = {second_frames} }}");
         let capture = folder.update(SPEED, &motion, &next).unwrap();
         for (x, y) in [(0, 0), (2, 1), (1, 2)] {
             let sample = known(&capture, x, y);
@@ -43,10 +42,9 @@ fn both_ends_of_two_chained_flows_are_reached_exactly() {
 
 #[test]
 fn beside_unknown_flow_the_velocity_stays_constant() {
-    let folder = Folder::new().with("a.flo", flo(|_, _| [0.5, 0.0])).with(
-        "b.flo",
-        flo(|x, y| if (x, y) == (1, 1) { [f32::NAN; 2] } else { [2.5, 0.0] }),
-    );
+    let folder = Folder::new()
+        .with("a.flo", flo(|_, _| [0.5, 0.0]))
+        .with("b.flo", flo(|x, y| if (x, y) == (1, 1) { [f32::NAN; 2] } else { [2.5, 0.0] }));
     let next = "acceleration = { kind = \"next-flow\", file = \"b.flo\" }";
     let capture = folder.update(SPEED, "{ kind = \"flow\", file = \"a.flo\" }", next).unwrap();
     for x in 0..2 {
@@ -111,12 +109,8 @@ fn the_user_may_leave_out_limit_or_smooth() {
 #[test]
 fn smoothing_stops_at_another_surface() {
     let z = cells(|x, _| if x < 2 { 2.0 } else { 2.2 });
-    let list = [
-        ("VX", vec![0.0; 12]),
-        ("VY", vec![0.0; 12]),
-        ("AX", cells(|x, _| if x < 2 { 1.0 } else { 5.0 })),
-        ("Z", z),
-    ];
+    let list =
+        [("VX", vec![0.0; 12]), ("VY", vec![0.0; 12]), ("AX", cells(|x, _| if x < 2 { 1.0 } else { 5.0 })), ("Z", z)];
     let folder = Folder::new().with("p.exr", encode::exr(W, H, Precision::Float, &list));
     let text = super::folder::manifest(DEPTH, MOTION, "");
     let capture = folder.load_with(&text, AccelerationPolicy::Smooth).unwrap();

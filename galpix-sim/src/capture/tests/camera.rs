@@ -3,8 +3,8 @@
 //! `f = 100`, the optical axis meets pixel (2, 1), depth 2: a step of the camera by 0.02 to the right moves the picture by
 //! one pixel to the left.
 
-use super::super::CaptureError;
 use super::super::Capture;
+use super::super::CaptureError;
 use super::encode;
 use super::folder::{Folder, cells, known, manifest, near};
 
@@ -44,7 +44,10 @@ fn write(folder: &Folder, format: &str, path: &[View]) -> &'static str {
                 // Any length of the quaternion will do; this one has 2.
                 format!("{}.5 {r} {d} {f} 0 {} 0 {}\n", i, 2.0 * s, 2.0 * c)
             };
-            ("p.txt", "# stamp tx ty tz qx qy qz qw\n".to_owned() + &path.iter().enumerate().map(pose).collect::<String>())
+            (
+                "p.txt",
+                "# stamp tx ty tz qx qy qz qw\n".to_owned() + &path.iter().enumerate().map(pose).collect::<String>(),
+            )
         }
         "tartanair" => {
             // North, east, down: forward, right, down. Turning right turns about down.
@@ -81,8 +84,9 @@ fn load(format: &str, path: &[View], pose: usize, more: &str) -> Result<Capture,
     let folder = Folder::new().with("z.npy", encode::npy_f4("(3, 4)", &raw));
     let poses = write(&folder, format, path);
     let intrinsics = if format == "transforms" { "" } else { "intrinsics = [100, 100, 2, 1]," };
-    let motion =
-        format!("{{ kind = \"camera\", format = \"{format}\", poses = \"{poses}\", {intrinsics} pose = {pose} {more} }}");
+    let motion = format!(
+        "{{ kind = \"camera\", format = \"{format}\", poses = \"{poses}\", {intrinsics} pose = {pose} {more} }}"
+    );
     folder.update("{ kind = \"z\", file = \"z.npy\", far = 1e8 }", &motion, "background = \"camera\"")
 }
 
@@ -196,9 +200,8 @@ fn bad_paths_are_refused() {
     ];
     let folder = Folder::new().with("z.npy", encode::npy_f4("(3, 4)", &[2.0; 12]));
     let refused = |format: &str, poses: &str, pose: u32, intrinsics: &str, what: &str| {
-        let motion = format!(
-            "{{ kind = \"camera\", format = \"{format}\", poses = \"{poses}\", {intrinsics} pose = {pose} }}"
-        );
+        let motion =
+            format!("{{ kind = \"camera\", format = \"{format}\", poses = \"{poses}\", {intrinsics} pose = {pose} }}");
         folder.refused(&manifest("{ kind = \"z\", file = \"z.npy\" }", &motion, ""), poses, what)
     };
     let intrinsics = "intrinsics = [100, 100, 2, 1],";

@@ -94,7 +94,8 @@ fn the_update_may_be_an_exr_named_either_way() {
     let list = ["R", "G", "B"].map(|n| (format!("Layer.Combined.{n}"), vec![1.0; W * H]));
     let folder = Folder::new().with("all.exr", encode::exr(W, H, Precision::Half, &encode::borrowed(&list)));
     let folder = folder.with("f.flo", encode::pieh(4, 3, &[0.0; 24]));
-    for colour in ["{ file = \"all.exr\", channel = \"Layer.Combined\" }", "\"all.exr\"\nchannel = \"Layer.Combined\""] {
+    for colour in ["{ file = \"all.exr\", channel = \"Layer.Combined\" }", "\"all.exr\"\nchannel = \"Layer.Combined\""]
+    {
         let text = manifest("{ kind = \"speed\" }", "{ kind = \"flow\", file = \"f.flo\" }", "")
             .replace("\"color.png\"", colour);
         let capture = folder.load(&text).unwrap();
@@ -124,7 +125,8 @@ fn truths_come_in_the_order_of_their_frames_with_their_masks() {
         .with("f.flo", encode::pieh(4, 3, &[0.0; 24]))
         .with("late.png", encode::png8(4, 3, ColorType::Grayscale, &[9; 12]))
         .with("mask.png", encode::png8(4, 3, ColorType::Grayscale, &cells(|x, _| x as u8)));
-    let truths = "[[truth]]\nframe = 8\ncolor = \"late.png\"\nmask = \"mask.png\"\n[[truth]]\nframe = 3\ncolor = \"color.png\"";
+    let truths =
+        "[[truth]]\nframe = 8\ncolor = \"late.png\"\nmask = \"mask.png\"\n[[truth]]\nframe = 3\ncolor = \"color.png\"";
     let capture = folder.update("{ kind = \"speed\" }", "{ kind = \"flow\", file = \"f.flo\" }", truths).unwrap();
     assert_eq!(capture.truths.iter().map(|t| t.frame).collect::<Vec<_>>(), [3, 8]);
     assert_eq!(capture.truths[0].picture.pixels, cells(colour));

@@ -130,7 +130,9 @@ fn every_known_number_is_finite_even_at_absurd_depths() {
             let folder = Folder::new().with("a.exr", encode::exr(W, H, Precision::Float, &list));
             for kind in ["z", "disparity"] {
                 let depth = format!("{{ kind = \"{kind}\", file = \"a.exr\", channel = \"Z\", scale = {scale} }}");
-                let Ok(capture) = folder.update(&depth, "{ kind = \"planes\", file = \"a.exr\" }", "") else { continue };
+                let Ok(capture) = folder.update(&depth, "{ kind = \"planes\", file = \"a.exr\" }", "") else {
+                    continue;
+                };
                 for sample in &capture.update.samples {
                     let all = [&[sample.depth][..], &sample.velocity, &sample.acceleration].concat();
                     assert!(all.iter().all(|v| v.is_finite()), "{kind} {raw:?} x {scale}: {all:?}");

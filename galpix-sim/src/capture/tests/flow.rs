@@ -88,7 +88,9 @@ fn disparity_moves_along_the_row() {
     let raw = cells(|x, y| (4 * x + 20 * y) as u8);
     let folder = Folder::new().with("d.png", encode::png8(4, 3, ColorType::Grayscale, &raw));
     for sign in [-1.0, 1.0] {
-        let motion = format!("{{ kind = \"disparity\", file = \"d.png\", scale = 0.25, sign = {sign}, frames = 2, invalid = [0, 4] }}");
+        let motion = format!(
+            "{{ kind = \"disparity\", file = \"d.png\", scale = 0.25, sign = {sign}, frames = 2, invalid = [0, 4] }}"
+        );
         let capture = folder.update(SPEED, &motion, "").unwrap();
         assert!(empty(&capture, 0, 0) && empty(&capture, 1, 0));
         assert_eq!(capture.census.unknown_motion, 2);

@@ -225,7 +225,8 @@ fn png_of(side: u32) -> Vec<u8> {
 
 #[test]
 fn absurd_sizes_are_refused_before_anything_is_allocated() {
-    let mut exr = encode::exr(W, H, Precision::Float, &[("R", vec![0.0; 12]), ("G", vec![0.0; 12]), ("B", vec![0.0; 12])]);
+    let mut exr =
+        encode::exr(W, H, Precision::Float, &[("R", vec![0.0; 12]), ("G", vec![0.0; 12]), ("B", vec![0.0; 12])]);
     // Windows are two corners, the second one included: (0, 0) to (3, 2).
     let window: Vec<u8> = [0, 0, 3, 2].iter().flat_map(|v: &i32| v.to_le_bytes()).collect();
     let places: Vec<usize> = exr.windows(16).enumerate().filter(|(_, w)| *w == window).map(|(at, _)| at).collect();

@@ -165,9 +165,8 @@ fn everything_has_the_size_of_the_colour_picture() {
 #[test]
 fn the_manifest_itself_may_be_missing_or_no_text() {
     let folder = Folder::new();
-    let refused = |what: &str| {
-        check_refusal(&load(folder.path(), &ImportOptions::default()).unwrap_err(), "capture.toml", what)
-    };
+    let refused =
+        |what: &str| check_refusal(&load(folder.path(), &ImportOptions::default()).unwrap_err(), "capture.toml", what);
     refused("cannot be read");
     for (bytes, what) in [
         (&b"frames = 8 # \xff\xfe"[..], "is not a text file"),

@@ -28,7 +28,8 @@ fn value(x: usize, y: usize) -> f32 {
 fn png_maps_are_raw_numbers() {
     let narrow = cells(|x, y| (x + 50 * y) as u8);
     let wide = cells(|x, y| (1000 * x + 20_000 * y) as u16);
-    let [narrow_raw, wide_raw] = [narrow.iter().map(|&v| f64::from(v)).collect(), wide.iter().map(|&v| f64::from(v)).collect::<Vec<_>>()];
+    let [narrow_raw, wide_raw] =
+        [narrow.iter().map(|&v| f64::from(v)).collect(), wide.iter().map(|&v| f64::from(v)).collect::<Vec<_>>()];
     let narrow_raw: Vec<f64> = narrow_raw;
     read(encode::png8(4, 3, ColorType::Grayscale, &narrow), None, MapFormat::Raw, &narrow_raw);
     read(encode::png16(4, 3, ColorType::Grayscale, &wide), None, MapFormat::Raw, &wide_raw);

@@ -7,9 +7,7 @@ const DEPTH: &str = "{ kind = \"z\", file = \"z.npy\", scale = 0.5 }";
 
 /// A folder with raw depth 4 everywhere (2 after the scale) and `p.exr`.
 fn folder(precision: Precision, list: &[Channel]) -> Folder {
-    Folder::new()
-        .with("z.npy", encode::npy_f4("(3, 4)", &[4.0; 12]))
-        .with("p.exr", encode::exr(W, H, precision, list))
+    Folder::new().with("z.npy", encode::npy_f4("(3, 4)", &[4.0; 12])).with("p.exr", encode::exr(W, H, precision, list))
 }
 
 #[test]
@@ -87,7 +85,8 @@ fn a_vector_averaged_over_a_border_is_replaced() {
     let speed = [-4.0, -4.0, -4.0, -2.0, -2.0, 0.0, 0.0, 0.0, 0.0];
     let z = row([2.0, 2.0, 2.0, 2.0, 8.0, 8.0, 8.0, 8.0, 8.0]);
     let still = || row([0.0; 9]);
-    let list = [("Vector.X", row(speed)), ("Vector.Y", still()), ("Vector.Z", row(speed)), ("Vector.W", still()), ("Z", z)];
+    let list =
+        [("Vector.X", row(speed)), ("Vector.Y", still()), ("Vector.Z", row(speed)), ("Vector.W", still()), ("Z", z)];
     let folder = Folder::new().with("p.exr", encode::exr(width, height, Precision::Float, &list));
     folder.write("color.png", encode::png8(9, 5, png::ColorType::Grayscale, &[0; 45]));
     let depth = "{ kind = \"z\", file = \"p.exr\", channel = \"Z\" }";
