@@ -19,5 +19,5 @@ pub(super) fn read_tagged(source: &Source, expected: Size, bands: usize) -> Resu
     let body = source.body(12, (size.cells() * bands * 4) as u64)?;
     let (floats, _) = body.as_chunks::<4>();
     let band = |b: usize| floats.iter().skip(b).step_by(bands).map(|&f| f64::from(f32::from_le_bytes(f))).collect();
-    Ok(Bands { size, bands: (0..bands).map(band).collect() })
+    Ok(Bands { bands: (0..bands).map(band).collect() })
 }

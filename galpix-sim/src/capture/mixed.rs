@@ -1,8 +1,9 @@
 //! Vectors that belong to no surface.
 //!
 //! In an anti-aliased render the depth of a pixel comes from one sample, but its vector is averaged over the pixel: at the
-//! border of a surface that moves, it belongs to neither side. Such a vector is replaced by that of the nearest cell of the
-//! same surface that is away from any border.
+//! border of a surface that moves, it lies somewhere between the vectors of the two sides. Such a vector is replaced by that
+//! of the nearest cell of the same surface that is away from any border. A vector that is not between the two sides is the
+//! surface's own, as in a render of one sample a pixel, and is left alone.
 
 use super::camera::{Distance, Track};
 use super::source::Size;
@@ -12,6 +13,9 @@ const SAME_SURFACE: f64 = 0.05;
 
 /// Smaller differences, in pixels a frame, are taken for the surface's own.
 const TOLERANCE: f64 = 0.1;
+
+/// A mixed vector lies on the line between the two sides' to within this part of their difference.
+const OFF_LINE: f64 = 0.1;
 
 /// Replaces mixed vectors; returns how many were.
 pub(super) fn unmix(tracks: &mut [Option<Track>], distances: &[Distance], size: Size) -> usize {
@@ -35,17 +39,34 @@ pub(super) fn unmix(tracks: &mut [Option<Track>], distances: &[Distance], size: 
             let (dx, dy) = ((near % size.width).abs_diff(x), (near / size.width).abs_diff(y));
             dx * dx + dy * dy
         };
-        let of_surface = around(size, x, y, 2)
-            .filter(|&near| clean[near] && matches!(distances[near], Distance::At(there) if same(here, there)))
-            .min_by_key(|&near| squared(near));
-        if let Some(own) = of_surface.and_then(|near| given[near])
-            && (0..2).any(|i| (own.velocity[i] - mixed.velocity[i]).abs() > TOLERANCE)
+        let nearest = |side: &dyn Fn(usize) -> bool| {
+            let cells = around(size, x, y, 2).filter(|&near| side(near));
+            cells.min_by_key(|&near| squared(near)).and_then(|near| given[near])
+        };
+        let own_side = |near: usize| matches!(distances[near], Distance::At(there) if same(here, there));
+        let own = nearest(&|near| clean[near] && own_side(near));
+        let other = nearest(&|near| !own_side(near) && distances[near] != Distance::Unknown);
+        if let (Some(own), Some(other)) = (own, other)
+            && between(mixed.velocity, own.velocity, other.velocity)
         {
             tracks[cell] = Some(own);
             replaced += 1;
         }
     }
     replaced
+}
+
+/// Whether a vector lies between those of its own side and of the other, and noticeably off its own.
+fn between(mixed: [f64; 3], own: [f64; 3], other: [f64; 3]) -> bool {
+    let off = [mixed[0] - own[0], mixed[1] - own[1]];
+    let across = [other[0] - own[0], other[1] - own[1]];
+    let squared = across[0] * across[0] + across[1] * across[1];
+    if off[0].hypot(off[1]) <= TOLERANCE || squared == 0.0 {
+        return false;
+    }
+    let part = (off[0] * across[0] + off[1] * across[1]) / squared;
+    let beside = (off[0] * across[1] - off[1] * across[0]).abs() / squared;
+    part > 0.0 && part <= 1.0 + OFF_LINE && beside <= OFF_LINE
 }
 
 /// The cells at most `reach` columns and rows away, inside the picture.

@@ -42,7 +42,7 @@ pub(super) fn read(source: &Source, expected: Size) -> Result<Bands, CaptureErro
         let index = |(x, y): (usize, usize)| if header.fortran { y + h * (x + w * b) } else { b + bands * (x + w * y) };
         size.positions().map(|at| value(index(at))).collect()
     };
-    Ok(Bands { size, bands: (0..bands).map(band).collect() })
+    Ok(Bands { bands: (0..bands).map(band).collect() })
 }
 
 /// How one value is stored.

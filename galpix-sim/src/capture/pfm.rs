@@ -31,7 +31,7 @@ pub(super) fn read(source: &Source, expected: Size) -> Result<Bands, CaptureErro
     let band = |b: usize| {
         floats.rchunks(size.width * bands).flat_map(|row| row.iter().skip(b).step_by(bands).map(value)).collect()
     };
-    Ok(Bands { size, bands: (0..bands).map(band).collect() })
+    Ok(Bands { bands: (0..bands).map(band).collect() })
 }
 
 /// The next word of the header, with exactly one blank after it consumed.

@@ -84,7 +84,7 @@ pub(super) fn grey(source: &Source, expected: Size) -> Result<Bands, CaptureErro
             "save it as grey, or add format = \"sintel-disparity\" if it is one",
         ));
     }
-    Ok(Bands { size: raster.size, bands: vec![raster.band(0).map(f64::from).collect()] })
+    Ok(Bands { bands: vec![raster.band(0).map(f64::from).collect()] })
 }
 
 /// Sintel's disparity: 8-bit RGB, `d = 4 R + G / 64 + B / 16384` pixels. One band.
@@ -96,7 +96,7 @@ pub(super) fn sintel_disparity(source: &Source, expected: Size) -> Result<Bands,
         );
     }
     let value = |p: &[u16]| f64::from(p[0]) * 4.0 + f64::from(p[1]) / 64.0 + f64::from(p[2]) / 16384.0;
-    Ok(Bands { size: raster.size, bands: vec![raster.values.chunks_exact(raster.channels).map(value).collect()] })
+    Ok(Bands { bands: vec![raster.values.chunks_exact(raster.channels).map(value).collect()] })
 }
 
 /// KITTI's disparity: 16-bit grey, `d = value / 256` pixels, 0 = unknown (delivered as NaN). One band.
@@ -108,7 +108,7 @@ pub(super) fn kitti_disparity(source: &Source, expected: Size) -> Result<Bands, 
         );
     }
     let value = |v: u16| if v == 0 { f64::NAN } else { f64::from(v) / 256.0 };
-    Ok(Bands { size: raster.size, bands: vec![raster.band(0).map(value).collect()] })
+    Ok(Bands { bands: vec![raster.band(0).map(value).collect()] })
 }
 
 /// KITTI's flow: 16-bit RGB, `u = (R - 32768) / 64`, `v = (G - 32768) / 64`, `B` zero = unknown (delivered as NaN).
@@ -122,5 +122,5 @@ pub(super) fn kitti_flow(source: &Source, expected: Size) -> Result<Bands, Captu
         let value = |p: &[u16]| if p[2] == 0 { f64::NAN } else { (f64::from(p[index]) - 32768.0) / 64.0 };
         raster.values.chunks_exact(raster.channels).map(value).collect()
     };
-    Ok(Bands { size: raster.size, bands: vec![component(0), component(1)] })
+    Ok(Bands { bands: vec![component(0), component(1)] })
 }

@@ -37,7 +37,6 @@ pub(super) fn numbers(
             return Err(source.fault("is a JPEG, whose numbers are not exact", "save the map as PNG, EXR, PFM or .npy"));
         }
     };
-    debug_assert_eq!(bands.size, size, "readers check the size");
     match <[Vec<f64>; 1]>::try_from(bands.bands) {
         Ok([numbers]) => Ok(numbers),
         Err(bands) => {
@@ -48,7 +47,7 @@ pub(super) fn numbers(
 
 /// Reads a displacement for each pixel: `None` where it is unknown (NaN, or a size of 1e9 and more).
 pub(super) fn flow(source: &Source, size: Size) -> Result<Vec<Option<[f64; 2]>>, CaptureError> {
-    let Bands { bands, size: read } = match source.format()? {
+    let Bands { bands } = match source.format()? {
         Format::Pieh => flo::read(source, size)?,
         Format::Png => png_raster::kitti_flow(source, size)?,
         Format::Npy => npy::read(source, size)?,
@@ -58,7 +57,6 @@ pub(super) fn flow(source: &Source, size: Size) -> Result<Vec<Option<[f64; 2]>>,
             return Err(source.fault("is no optical flow", mend));
         }
     };
-    debug_assert_eq!(read, size, "readers check the size");
     let [u, v, ..] = &bands[..] else {
         return Err(source.fault("has one number a pixel", "a flow needs two, u and v"));
     };

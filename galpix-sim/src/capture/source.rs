@@ -35,10 +35,9 @@ impl Size {
     }
 }
 
-/// Raw numbers as a file stores them: one or more bands of `size.cells()` values, rows from top to bottom.
+/// Raw numbers as a file stores them: one or more bands of as many values as the picture has cells, rows from top to bottom.
 #[derive(Clone, Debug)]
 pub(super) struct Bands {
-    pub size: Size,
     pub bands: Vec<Vec<f64>>,
 }
 
