@@ -10,7 +10,7 @@ use std::time::Instant;
 const TIMES: usize = 4;
 const GAP: usize = 4;
 
-fn main() -> anyhow::Result<()> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("contact-sheet.png"), PathBuf::from);
     let (width, height) = all().iter().fold((0, 0), |(w, h), scene| (scene.width().max(w), scene.height().max(h)));
     let (cell_width, cell_height) = (width + GAP, height + GAP);

@@ -1,0 +1,124 @@
+//! A frame beside the truth: as a picture, and galpixel by galpixel.
+
+use std::collections::VecDeque;
+
+use galpix_core::layout::Layout;
+
+use super::Source;
+use super::report::{PositionReport, TruthReport};
+use crate::engine::Frame;
+use crate::metric;
+use crate::picture::Picture;
+use crate::update::{Truth, Update};
+
+/// Compares a shown picture with the truth.
+#[must_use]
+pub fn compare(picture: &Picture, hold: &Picture, truth: &Truth, reached: &[bool], perceptual: bool) -> TruthReport {
+    let counted = |index: usize| truth.mask.as_ref().is_none_or(|mask| mask[index]);
+    let known: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| reached && counted(index)).collect();
+    let missing: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| !reached && counted(index)).collect();
+    let mask = truth.mask.as_deref();
+    let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {
+        perceptual.then(|| measure(picture, &truth.picture, mask)).flatten()
+    };
+    TruthReport {
+        psnr_db: metric::psnr_db(picture, &truth.picture, mask),
+        psnr_hold_db: metric::psnr_db(hold, &truth.picture, mask),
+        psnr_known_db: metric::psnr_db(picture, &truth.picture, Some(&known)),
+        ssim: perceptual(metric::ssim),
+        flip: perceptual(metric::flip),
+        missing: missing.iter().filter(|&&missing| missing).count() as u64,
+        missing_at_border: connected_with_border(&missing, truth.picture.width, truth.picture.height),
+    }
+}
+
+/// How many of the set cells are connected with the border by set cells that share a side.
+fn connected_with_border(set: &[bool], width: usize, height: usize) -> u64 {
+    let mut seen = vec![false; set.len()];
+    let mut queue: VecDeque<usize> = VecDeque::new();
+    let mut reach = |cell: usize, queue: &mut VecDeque<usize>| {
+        if set[cell] && !seen[cell] {
+            seen[cell] = true;
+            queue.push_back(cell);
+        }
+    };
+    for cell in 0..width * height {
+        let (x, y) = (cell % width, cell / width);
+        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
+            reach(cell, &mut queue);
+        }
+    }
+    while let Some(cell) = queue.pop_front() {
+        let (x, y) = (cell % width, cell / width);
+        if x > 0 {
+            reach(cell - 1, &mut queue);
+        }
+        if x + 1 < width {
+            reach(cell + 1, &mut queue);
+        }
+        if y > 0 {
+            reach(cell - width, &mut queue);
+        }
+        if y + 1 < height {
+            reach(cell + width, &mut queue);
+        }
+    }
+    seen.iter().filter(|&&seen| seen).count() as u64
+}
+
+/// The worst and the mean of some errors.
+#[derive(Default)]
+struct Errors {
+    worst: f64,
+    sum: f64,
+    count: u32,
+}
+
+impl Errors {
+    fn add(&mut self, place: [f64; 2], should: [f64; 2]) {
+        let error = (place[0] - should[0]).abs().max((place[1] - should[1]).abs());
+        self.worst = self.worst.max(error);
+        self.sum += error;
+        self.count += 1;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / f64::from(self.count)
+    }
+}
+
+/// How far the galpixels of a frame are from where they should be.
+pub(super) fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
+    let wings = [update.wings.left as f64, update.wings.top as f64];
+    let time = f64::from(frame.number);
+    let (mut second_order, mut truth) = (Errors::default(), Errors::default());
+    for (origin, place) in frame.places() {
+        let sample = update.samples.get(origin as usize)?;
+        let from = [(origin as usize % update.width) as f64, (origin as usize / update.width) as f64];
+        let along = |i: usize| from[i] + sample.velocity[i] * time + sample.acceleration[i] / 2.0 * time * time;
+        second_order.add(place, [along(0), along(1)]);
+        if let Source::Scene(scene) = source {
+            let [x, y, _] = scene.track(from[0] - wings[0], from[1] - wings[1], 0.0, time);
+            truth.add(place, [x + wings[0], y + wings[1]]);
+        }
+    }
+    (second_order.count > 0).then(|| PositionReport {
+        worst_px: second_order.worst,
+        mean_px: second_order.mean(),
+        truth_worst_px: (truth.count > 0).then_some(truth.worst),
+        truth_mean_px: (truth.count > 0).then(|| truth.mean()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_touches_the_border_is_connected_with_it() {
+        let art = ["#..#.", "#.#..", "..#..", ".....", ".##.#"];
+        let set: Vec<bool> = art.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
+        // The two cells in the middle touch no border cell by a side; everything else does.
+        assert_eq!(connected_with_border(&set, 5, 5), 6);
+    }
+}
