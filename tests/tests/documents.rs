@@ -1,0 +1,46 @@
+//! What the documents name exists.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The words between backticks.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+#[test]
+fn the_paper_map_names_functions_and_tests_that_exist() {
+    let map = fs::read_to_string(root().join("docs/paper-map.md")).unwrap();
+    let (mut functions, mut tests) = (0, 0);
+    for word in quoted(&map) {
+        if word.ends_with(".rs") || word.ends_with('/') {
+            assert!(root().join("tests/tests").join(word).exists(), "there is no test {word}");
+            tests += 1;
+        } else if let Some((module, item)) = word.split_once("::") {
+            let file = root().join("galpix-core/src").join(format!("{module}.rs"));
+            let source = fs::read_to_string(&file).unwrap_or_else(|_| panic!("there is no module {module}"));
+            for name in item.split("::") {
+                let defined = source
+                    .lines()
+                    .filter(|line| !line.trim_start().starts_with("//"))
+                    .any(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name));
+                assert!(defined, "{word} is not in {}", file.display());
+            }
+            functions += 1;
+        }
+    }
+    assert!(functions >= 15 && tests >= 15, "{functions} functions and {tests} tests are named");
+}
+
+#[test]
+fn the_readme_names_files_that_exist_and_two_commands() {
+    let readme = fs::read_to_string(root().join("README.md")).unwrap();
+    for target in readme.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        assert!(root().join(target).exists(), "README links to {target}, which is not there");
+    }
+    assert_eq!(readme.matches("```sh").count(), 2, "exactly two commands");
+}
