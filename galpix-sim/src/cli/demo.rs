@@ -69,6 +69,7 @@ impl Demo {
                 ("Version".to_owned(), env!("CARGO_PKG_VERSION").to_owned()),
                 ("Rounding".to_owned(), request.rounding.name().to_owned()),
                 ("Holes".to_owned(), request.fill.name().to_owned()),
+                ("ns a galpixel".to_owned(), "a budget chosen at run time, scenes side by side".to_owned()),
                 ("Time".to_owned(), format!("{:.1} s", started.elapsed().as_secs_f64())),
             ],
             stories: told.into_iter().map(|(_, story)| story).collect(),
