@@ -52,6 +52,8 @@ pub enum BudgetError {
     },
     /// The layout has an acceleration and no velocity, or a depth motion and no depth.
     LaneWithoutItsBase,
+    /// A lane was chosen that the layout does not have.
+    NoSuchLane,
 }
 
 impl fmt::Display for BudgetError {
@@ -94,6 +96,9 @@ impl fmt::Display for BudgetError {
             Self::LaneWithoutItsBase => f.write_str(
                 "acceleration needs velocity, and depth motion needs depth and velocity: add the missing lane",
             ),
+            Self::NoSuchLane => {
+                f.write_str("a lane was chosen that the layout does not have: choose among its own, or another layout")
+            }
         }
     }
 }

@@ -95,10 +95,16 @@ impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
         &mut self.front
     }
 
-    /// Frames made so far; wraps.
+    /// The frame counter: frames made since it was set; wraps.
     #[must_use]
     pub const fn frame(&self) -> u32 {
         self.frame
+    }
+
+    /// Sets the frame counter, from which the thresholds of the rounding are taken. Where an update replaces the whole map,
+    /// 0 aligns a searched table with it; the other roundings have the same bounds from any frame on.
+    pub const fn set_frame(&mut self, frame: u32) {
+        self.frame = frame;
     }
 
     /// For each cell of the shown map, the cell of the map before that it came from; see [`crate::resolve::NOBODY`] and

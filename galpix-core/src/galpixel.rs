@@ -5,7 +5,7 @@ use fixed::types::I32F32;
 use crate::budget::Bits;
 use crate::colour::Colour;
 use crate::error::BudgetError;
-use crate::layout::Layout;
+use crate::layout::{Lanes, Layout};
 use crate::record::{Field, Record, Words};
 
 use core::marker::PhantomData;
@@ -122,6 +122,25 @@ impl<L: Layout> Chosen<L> {
         match Record::plan(bits, L::LANES, L::Colour::BITS) {
             Ok(record) => Ok(Self { record, layout: PhantomData }),
             Err(error) => Err(error),
+        }
+    }
+
+    /// The stored form of a part of the layout's lanes: the others are left out of memory, read 0 and ignore what is
+    /// written, as if the type lacked them. Every step is the same, bit by bit, as that of a layout with these lanes alone.
+    ///
+    /// *Errors:* lanes that the layout lacks, a component that [`crate::budget::Component::checked`] refuses, and those of
+    /// [`Record::plan`].
+    pub const fn with_lanes(bits: Bits, lanes: Lanes) -> Result<Self, BudgetError> {
+        if !L::LANES.include(lanes) {
+            return Err(BudgetError::NoSuchLane);
+        }
+        // The code of the lanes that are left out still runs, over zeros: its shifts must be sound.
+        match (bits.x.checked(), bits.y.checked(), bits.z.checked()) {
+            (Ok(_), Ok(_), Ok(_)) => match Record::plan(bits, lanes, L::Colour::BITS) {
+                Ok(record) => Ok(Self { record, layout: PhantomData }),
+                Err(error) => Err(error),
+            },
+            (Err(error), _, _) | (_, Err(error), _) | (_, _, Err(error)) => Err(error),
         }
     }
 }

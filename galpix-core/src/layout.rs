@@ -55,6 +55,17 @@ impl Lanes {
 
     /// x and y with velocity only, over a 16-bit z-buffer.
     pub const VELOCITY_XY: Self = Self { acceleration: false, depth_motion: false, ..Self::FULL };
+
+    /// Whether every lane of `other` is one of these. The depth may have any width where there is one.
+    #[must_use]
+    pub const fn include(self, other: Self) -> bool {
+        (self.depth_bits > 0 || other.depth_bits == 0)
+            && (self.velocity || !other.velocity)
+            && (self.acceleration || !other.acceleration)
+            && (self.depth_motion || !other.depth_motion)
+            && (self.luminosity || !other.luminosity)
+            && self.tag_bits >= other.tag_bits
+    }
 }
 
 macro_rules! layouts {

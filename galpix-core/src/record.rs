@@ -157,7 +157,10 @@ pub struct Scale {
 }
 
 impl Scale {
-    const fn new(component: Component, position_frac: u32) -> Self {
+    /// The arithmetic of a component whose position has `position_frac` fraction bits (in depth these are not the
+    /// component's own, see [`Record::plan`]).
+    #[must_use]
+    pub const fn new(component: Component, position_frac: u32) -> Self {
         let step_frac = component.velocity_frac + 1;
         Self {
             acceleration_up: component.velocity_frac.saturating_sub(component.acceleration_frac),

@@ -4,24 +4,57 @@
 //! each at most half of its last bit off, which grows with 1, n and n²/2. **Drift**: each frame drops `down` bits of
 //! `2v + a` after adding a threshold `t`; with `u` the low bits of `2v + a`, the frame's error is `t - (u + t) mod 2^down`
 //! of those bits. That depends on `v mod 2^(down-1)` and `a mod 2^down` only, and so do all later frames, because
-//! `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely.
+//! `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma is proved
+//! in `docs/error-bounds.md`.
 //!
 //! The snap to a cell, at most half a pixel, is the same for any method and stands apart. A galpixel that saturates is
 //! counted, and outside of the certificate.
+
+mod drift;
+mod smallest;
+#[cfg(test)]
+mod tests;
 
 use galpix_core::record::Scale;
 use galpix_core::rounding::Rounding;
 use serde::Serialize;
 
-/// The worst case after one frame.
+use drift::Drift;
+pub use smallest::{Unreachable, smallest};
+
+/// The worst case after one frame, in pixels, by cause.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrameBound {
     /// Frames since the update.
     pub frame: u32,
-    /// From storing position, velocity and acceleration, in pixels.
+    /// From storing the position.
+    pub position_px: f64,
+    /// From storing the velocity.
+    pub velocity_px: f64,
+    /// From storing the acceleration.
+    pub acceleration_px: f64,
+    /// From storing all three: their sum.
     pub quantisation_px: f64,
-    /// From rounding in each frame, in pixels.
+    /// From rounding in each frame.
     pub drift_px: f64,
+}
+
+impl FrameBound {
+    /// Quantisation and drift.
+    #[must_use]
+    pub fn total_px(&self) -> f64 {
+        self.quantisation_px + self.drift_px
+    }
+}
+
+/// How a drift was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Every residue class was run from every phase: the bound is reached by a state.
+    Enumerated,
+    /// There are too many classes: each frame is off by less than a step of the position, which is no tight bound.
+    Bounded,
 }
 
 /// The worst case over all states of a component, for all frames up to `tau_prop`.
@@ -33,37 +66,55 @@ pub struct Certificate {
     pub drift_px: f64,
     /// Their sum.
     pub total_px: f64,
+    /// The largest drift if the update enters at any frame of the counter. Differs from `drift_px` for searched tables only,
+    /// which are certified for updates that enter at frame 0.
+    pub drift_any_phase_px: f64,
+    /// How the drift was found.
+    pub method: Method,
+    /// Residue classes of velocity and acceleration.
+    pub classes: u64,
+    /// Phases of the frame counter.
+    pub phases: u64,
     /// Frame by frame.
     pub frames: Vec<FrameBound>,
 }
-
-/// Beyond this many dropped bits the phases are too many to enumerate, and a coarser bound is stated.
-const ENUMERATED_DOWN: u32 = 8;
 
 impl Certificate {
     /// The certificate of one component for `prop` frames.
     #[must_use]
     pub fn of(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
-        let last_bit = |frac: u32| 0.5f64.powi(frac as i32);
-        let drift = drift_by_frame(scale, has_acceleration, rounding, prop);
+        let drift = Drift::of(scale, has_acceleration, rounding, prop);
+        Self::with(scale, has_acceleration, prop, &drift)
+    }
+
+    fn with(scale: &Scale, has_acceleration: bool, prop: u32, drift: &Drift) -> Self {
+        let unit = 0.5f64.powi((scale.position_frac + scale.down) as i32);
         let frames: Vec<FrameBound> = (1..=prop)
-            .zip(&drift)
-            .map(|(frame, &drift_px)| {
-                let n = f64::from(frame);
-                let acceleration =
-                    if has_acceleration { n * n / 2.0 * last_bit(scale.acceleration_frac + 1) } else { 0.0 };
+            .zip(&drift.by_frame)
+            .map(|(frame, &drift)| {
+                let [position_px, velocity_px, acceleration_px] = quantisation(scale, has_acceleration, frame);
                 FrameBound {
                     frame,
-                    quantisation_px: last_bit(scale.position_frac + 1)
-                        + n * last_bit(scale.velocity_frac + 1)
-                        + acceleration,
-                    drift_px,
+                    position_px,
+                    velocity_px,
+                    acceleration_px,
+                    quantisation_px: position_px + velocity_px + acceleration_px,
+                    drift_px: drift as f64 * unit,
                 }
             })
             .collect();
         let quantisation_px = frames.last().map_or(0.0, |frame| frame.quantisation_px);
         let drift_px = frames.iter().map(|frame| frame.drift_px).fold(0.0, f64::max);
-        Self { quantisation_px, drift_px, total_px: quantisation_px + drift_px, frames }
+        Self {
+            quantisation_px,
+            drift_px,
+            total_px: quantisation_px + drift_px,
+            drift_any_phase_px: drift.any_phase as f64 * unit,
+            method: drift.method,
+            classes: drift.classes,
+            phases: drift.phases,
+            frames,
+        }
     }
 
     /// Whether the paper's promise holds: a galpixel is within one pixel of its true place for `tau_prop` frames.
@@ -75,79 +126,14 @@ impl Certificate {
     /// The bound after `frame` frames, in pixels; beyond `tau_prop` nothing is certified.
     #[must_use]
     pub fn after(&self, frame: u32) -> Option<f64> {
-        let bound = self.frames.get(frame.checked_sub(1)? as usize)?;
-        Some(bound.quantisation_px + bound.drift_px)
+        Some(self.frames.get(frame.checked_sub(1)? as usize)?.total_px())
     }
 }
 
-/// The largest drift after each of the frames 1 to `prop`, in pixels.
-fn drift_by_frame(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Vec<f64> {
-    let down = scale.down;
-    let unit = 0.5f64.powi((scale.position_frac + down) as i32);
-    if down == 0 {
-        return vec![0.0; prop as usize];
-    }
-    if down > ENUMERATED_DOWN {
-        // Each frame is off by less than one step of the position.
-        return (1..=prop).map(|n| f64::from(n) * unit * f64::from((1u32 << down) - 1)).collect();
-    }
-    let modulus = 1i64 << down;
-    let phases = if rounding == Rounding::LowDiscrepancy { 1u32 << down } else { 1 };
-    let accelerations = if has_acceleration { modulus } else { 1 };
-    let mut worst = vec![0i64; prop as usize];
-    for phase in 0..phases {
-        let thresholds: Vec<i64> =
-            (0..prop).map(|n| i64::from(rounding.threshold(phase.wrapping_add(n), down))).collect();
-        for a in 0..accelerations {
-            let a = (a << scale.acceleration_up) & (modulus - 1);
-            for v in 0..modulus / 2 {
-                let (mut u, mut drift) = (2 * v + a, 0);
-                for (worst, &threshold) in worst.iter_mut().zip(&thresholds) {
-                    drift += threshold - ((u + threshold) & (modulus - 1));
-                    *worst = (*worst).max(drift.abs());
-                    u += 2 * a;
-                }
-            }
-        }
-    }
-    worst.into_iter().map(|drift| drift as f64 * unit).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use galpix_core::budget::{Bits, Demand};
-    use galpix_core::layout::Lanes;
-    use galpix_core::record::Record;
-
-    fn certificate(prop: u32, rounding: Rounding) -> Certificate {
-        let bits = Bits::derive(Demand { extent: 1024, recog: 8, prop }).unwrap();
-        let record = Record::plan(bits, Lanes::FULL, 24).unwrap();
-        Certificate::of(&record.scales[0], true, rounding, prop)
-    }
-
-    /// (tau_prop, rounding, quantisation, drift, total), worked out by hand from the lemma.
-    #[test]
-    fn the_papers_widths() {
-        use Rounding::{LowDiscrepancy, Nearest, Truncate};
-        for (prop, rounding, quantisation, drift) in [
-            (8, Truncate, 0.6875, 0.75),
-            (8, Nearest, 0.6875, 0.5),
-            (8, LowDiscrepancy, 0.6875, 0.25),
-            (16, Truncate, 0.59375, 0.875),
-            (16, Nearest, 0.59375, 0.5),
-            (16, LowDiscrepancy, 0.59375, 0.25),
-            (32, Truncate, 0.546875, 0.9375),
-            (32, Nearest, 0.546875, 0.5),
-            (32, LowDiscrepancy, 0.546875, 0.25),
-        ] {
-            let certificate = certificate(prop, rounding);
-            assert_eq!(
-                (certificate.quantisation_px, certificate.drift_px),
-                (quantisation, drift),
-                "{prop} {rounding:?}"
-            );
-            assert_eq!(certificate.keeps_one_pixel(), rounding == LowDiscrepancy, "{prop} {rounding:?}");
-        }
-    }
+/// The largest errors after `frame` frames from storing position, velocity and acceleration to nearest, in pixels.
+fn quantisation(scale: &Scale, has_acceleration: bool, frame: u32) -> [f64; 3] {
+    let half_of_last_bit = |frac: u32| 0.5f64.powi(frac as i32 + 1);
+    let n = f64::from(frame);
+    let acceleration = if has_acceleration { n * n / 2.0 * half_of_last_bit(scale.acceleration_frac) } else { 0.0 };
+    [half_of_last_bit(scale.position_frac), n * half_of_last_bit(scale.velocity_frac), acceleration]
 }

@@ -10,7 +10,7 @@ use galpix_core::frame::{Controller, Scratch, Settings};
 use galpix_core::galpixel::{Chosen, Class, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings as CoreWings};
-use galpix_core::layout::Layout;
+use galpix_core::layout::{Lanes, Layout};
 use galpix_core::tally::Tally;
 use galpix_core::{edge, scan_out};
 
@@ -66,6 +66,13 @@ impl<L: Layout> Engine<L> {
     /// *Errors:* a budget that does not fit the layout.
     pub fn new(bits: Bits, settings: Settings) -> Result<Self, EngineError> {
         Ok(Self { budget: Chosen::new(bits)?, settings })
+    }
+
+    /// An engine for a budget that keeps only a part of the layout's lanes, see [`Chosen::with_lanes`].
+    ///
+    /// *Errors:* lanes that the layout lacks, a budget that does not fit them.
+    pub fn with_lanes(bits: Bits, lanes: Lanes, settings: Settings) -> Result<Self, EngineError> {
+        Ok(Self { budget: Chosen::with_lanes(bits, lanes)?, settings })
     }
 
     /// Extrapolates an update by `frames` frames; `visit` sees the update itself (frame 0) and every frame.

@@ -47,13 +47,17 @@ impl Exact {
 
 /// What a frame adds to a position before the bits beyond `2^-frac` are cut off, in steps of `2^-frac`.
 ///
-/// The van der Corput sequence is the sum over the bits `b_i` of the frame counter of `b_i / 2^(i+1)`.
+/// The van der Corput sequence is the sum over the bits `b_i` of the frame counter of `b_i / 2^(i+1)`. A searched table is
+/// data: its entry for `dropped` bits, in units of the last of them.
 #[must_use]
-pub fn offset_of_frame(rounding: Rounding, frame: u32, frac: u32) -> Exact {
+pub fn offset_of_frame(rounding: Rounding, frame: u32, dropped: u32, frac: u32) -> Exact {
     let part = match rounding {
+        Rounding::Searched if dropped <= Rounding::MOST_SEARCHED => {
+            Exact::of(rounding.threshold(frame, dropped).into(), dropped)
+        }
         Rounding::Truncate => Exact(0),
         Rounding::Nearest => Exact::of(1, 1),
-        Rounding::LowDiscrepancy => {
+        Rounding::LowDiscrepancy | Rounding::Searched => {
             (0..32).filter(|bit| frame >> bit & 1 == 1).fold(Exact(0), |sum, bit| sum.plus(Exact::of(1, bit + 1)))
         }
     };
@@ -61,9 +65,11 @@ pub fn offset_of_frame(rounding: Rounding, frame: u32, frac: u32) -> Exact {
 }
 
 /// Equation (6): `r + v + a/2`, cut off to `frac` fraction bits after the frame's offset was added; as raw number.
+/// `v_frac` are the fraction bits of `v`, and one more those of the sum.
 #[must_use]
-pub fn position(r: Exact, v: Exact, a: Exact, rounding: Rounding, frame: u32, frac: u32) -> i64 {
-    r.plus(v).plus(a.half()).plus(offset_of_frame(rounding, frame, frac)).floor(frac)
+pub fn position(r: Exact, v: Exact, a: Exact, rounding: Rounding, frame: u32, v_frac: u32, frac: u32) -> i64 {
+    let dropped = (v_frac + 1).saturating_sub(frac);
+    r.plus(v).plus(a.half()).plus(offset_of_frame(rounding, frame, dropped, frac)).floor(frac)
 }
 
 /// Equation (7): `v + a`, as raw number.

@@ -184,3 +184,41 @@ fn an_absent_depth_is_0_everywhere() {
 fn an_absent_velocity_is_none() {
     absent_is_zero::<Velocity565, Velocity565WithoutVelocity>(Slide, |g| g.velocity = [I32F32::ZERO; 3], |_| ());
 }
+
+/// All planes, tallies, winners and edges of a layout that lacks lanes, and of one that leaves them out at run time.
+fn left_out_is_absent<More: Layout, Less: Layout<Colour = More::Colour>>(profile: impl Profile) {
+    fn bits<P: Profile>(_: P) -> galpix_core::budget::Bits {
+        P::BITS
+    }
+    let bits = bits(profile);
+    let absent = Chosen::<Less>::new(bits).unwrap();
+    let left_out = Chosen::<More>::with_lanes(bits, Less::LANES).unwrap();
+    for (turn, stage) in stage::all().enumerate() {
+        let stored = content(&stage, absent, |_| ());
+        assert!(stored == content(&stage, left_out, |_| ()), "{}: stored differently", stage.scene.name());
+        for settings in settings(turn, absent.record().depth().bits) {
+            let one = traces(stage.shape, absent, &stored, &settings);
+            let other = traces(stage.shape, left_out, &stored, &settings);
+            for (n, (a, b)) in (1..).zip(one.iter().zip(&other)) {
+                a.assert_same(b, &format!("{} {settings:?} frame {n}", stage.scene.name()));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_lane_left_out_at_run_time_is_absent() {
+    left_out_is_absent::<Shaded, Full>(Paper);
+    left_out_is_absent::<Shaded, Still>(Paper);
+    left_out_is_absent::<Shaded, ShadedWithoutAcceleration>(Odd);
+    left_out_is_absent::<Shaded, ShadedWithoutDepthMotion>(Paper);
+    left_out_is_absent::<Flat565, Velocity565>(Scene);
+    left_out_is_absent::<Flat565, Velocity565WithoutVelocity>(Scene);
+}
+
+#[test]
+fn a_lane_that_the_layout_lacks_is_refused() {
+    for lanes in [Shaded::LANES, Full::LANES] {
+        assert!(Chosen::<Flat565>::with_lanes(Paper::BITS, lanes).is_err());
+    }
+}

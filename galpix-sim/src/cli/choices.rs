@@ -17,6 +17,8 @@ pub enum RoundingChoice {
     /// By the frame counter read backwards
     #[default]
     LowDiscrepancy,
+    /// By a table found by search
+    Searched,
 }
 
 impl From<RoundingChoice> for Rounding {
@@ -25,6 +27,7 @@ impl From<RoundingChoice> for Rounding {
             RoundingChoice::Truncate => Self::Truncate,
             RoundingChoice::Nearest => Self::Nearest,
             RoundingChoice::LowDiscrepancy => Self::LowDiscrepancy,
+            RoundingChoice::Searched => Self::Searched,
         }
     }
 }

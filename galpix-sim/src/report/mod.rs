@@ -17,7 +17,7 @@ mod story;
 mod style;
 mod text;
 
-pub use page::html;
+pub use page::{document, html};
 pub use save::write_atomically;
 
 /// Everything that a report says. All text is plain; it is escaped where it meets HTML.

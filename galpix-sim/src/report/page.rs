@@ -15,28 +15,31 @@ pub fn html(report: &Report) -> String {
         true => String::new(),
         false => format!("<script>\n{}</script>", include_str!("player.js")),
     };
+    let primer = include_str!("primer.html").replace("<!--galpixel-->", include_str!("galpixel.svg"));
+    let main = [overview(report), primer, stories].concat();
+    document(&report.title, &report.intro, &report.facts, &main, &script)
+}
+
+/// A document around `main`, which is HTML: the style, a heading, paragraphs and facts, which are plain text.
+#[must_use]
+pub fn document(title: &str, intro: &[String], facts: &[(String, String)], main: &str, script: &str) -> String {
     [
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">".to_owned(),
         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">".to_owned(),
         "<meta name=\"color-scheme\" content=\"light dark\">".to_owned(),
-        format!("<title>{}</title><style>\n{}</style></head><body>\n", Text(&report.title), sheet()),
-        header(report),
-        "<main>\n".to_owned(),
-        overview(report),
-        include_str!("primer.html").replace("<!--galpixel-->", include_str!("galpixel.svg")),
-        stories,
-        format!("</main>{script}</body></html>\n"),
+        format!("<title>{}</title><style>\n{}</style></head><body>\n", Text(title), sheet()),
+        header(title, intro, facts),
+        format!("<main>\n{main}</main>{script}</body></html>\n"),
     ]
     .concat()
 }
 
-fn header(report: &Report) -> String {
-    let paragraphs: String = report.intro.iter().map(|text| format!("<p>{}</p>", Text(text))).collect();
-    let facts: String = report
-        .facts
+fn header(title: &str, intro: &[String], facts: &[(String, String)]) -> String {
+    let paragraphs: String = intro.iter().map(|text| format!("<p>{}</p>", Text(text))).collect();
+    let facts: String = facts
         .iter()
         .map(|(name, value)| format!("<div><dt>{}</dt><dd>{}</dd></div>", Text(name), Text(value)))
         .collect();
     let facts = if facts.is_empty() { facts } else { format!("<dl class=\"facts\">{facts}</dl>") };
-    format!("<header><h1>{}</h1>{paragraphs}{facts}</header>\n", Text(&report.title))
+    format!("<header><h1>{}</h1>{paragraphs}{facts}</header>\n", Text(title))
 }

@@ -69,6 +69,7 @@ fn a_position_steps_by_equation_6() {
                                 Exact::of(a, component.acceleration_frac),
                                 rounding,
                                 frame,
+                                component.velocity_frac,
                                 component.position_frac,
                             );
                             assert_eq!(i64::from(stepped), exact, "{name}, {rounding:?}, {frame}: r {r} v {v} a {a}");
@@ -116,7 +117,7 @@ fn a_threshold_is_the_offset_of_the_frame_in_dropped_bits() {
     for rounding in Rounding::ALL {
         for shift in 0..=12 {
             for frame in (0..1 << 13).chain(u32::MAX - (1 << 13)..=u32::MAX) {
-                let exact = exact::offset_of_frame(rounding, frame, 0).floor(shift);
+                let exact = exact::offset_of_frame(rounding, frame, shift, 0).floor(shift);
                 assert_eq!(i64::from(rounding.threshold(frame, shift)), exact, "{rounding:?} {frame} {shift}");
             }
         }
@@ -170,6 +171,7 @@ fn the_widest_fields_do_not_overflow() {
                                     Exact::of(a, acceleration_frac),
                                     rounding,
                                     frame,
+                                    velocity_frac,
                                     position_frac,
                                 );
                                 let at = || format!("{component:?} {rounding:?} frame {frame}: v {v} a {a}");

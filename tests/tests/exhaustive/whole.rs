@@ -98,7 +98,7 @@ fn expected<L: Layout>(
             saturations += u32::from(held != raw);
             packed::set(velocity, &mut after, held);
         }
-        exact::position(r, v, a, rounding, frame, r_frac)
+        exact::position(r, v, a, rounding, frame, component.velocity_frac, r_frac)
     };
     let mut cells = [i64::from(source % shape.width), i64::from(source / shape.width)];
     let mut offsets = [0; 2];
