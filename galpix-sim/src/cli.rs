@@ -5,6 +5,7 @@ mod choices;
 mod demo;
 mod run;
 mod scenes;
+mod vectors;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -61,6 +62,8 @@ enum Command {
     Budget(budget::Budget),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
+    /// Writes golden vectors for other implementations and for test benches in logic
+    Vectors(vectors::Vectors),
 }
 
 /// Parses the arguments, does what they say, and tells how it ended.
@@ -75,6 +78,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Budget(budget) => budget.run(),
         Command::Scenes(scenes) => scenes.run(),
+        Command::Vectors(vectors) => vectors.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -17,3 +17,4 @@ pub mod progress;
 pub mod report;
 pub mod scene;
 pub mod update;
+pub mod vectors;

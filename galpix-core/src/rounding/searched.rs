@@ -1,16 +1,22 @@
 //! Threshold tables found by search: `cargo run --release -p galpix-sim --example search_thresholds` finds them anew.
 
 /// The most dropped bits that there is a table for.
-pub(super) const MOST: u32 = 4;
+pub(super) const MOST: u32 = 6;
 
 /// The table for `shift` dropped bits fills the places `2^shift .. 2^(shift+1)`; the first two places are none's.
 #[rustfmt::skip]
 const THRESHOLDS: [u8; 2 << MOST] = [
     0, 0,
     0, 1,
-    2, 1, 1, 2,
+    0, 3, 2, 1,
     6, 1, 3, 4, 3, 4, 6, 1,
-    15, 3, 0, 12, 4, 8, 11, 7, 7, 11, 8, 4, 12, 0, 3, 15,
+    0, 12, 15, 3, 11, 7, 4, 8, 8, 4, 7, 11, 3, 15, 12, 0,
+    26, 3, 12, 0, 21, 30, 16, 22, 18, 11, 3, 27, 13, 21, 7, 14,
+    9, 18, 27, 19, 5, 13, 31, 6, 1, 27, 20, 9, 29, 5, 23, 4,
+    7, 30, 23, 7, 56, 14, 37, 58, 15, 50, 29, 16, 0, 56, 51, 60,
+    56, 11, 7, 24, 41, 55, 58, 36, 20, 4, 15, 63, 18, 1, 33, 44,
+    31, 17, 53, 40, 25, 47, 10, 19, 44, 18, 63, 48, 34, 22, 18, 27,
+    23, 40, 39, 55, 10, 29, 26, 4, 62, 26, 47, 32, 3, 37, 59, 12,
 ];
 
 /// The threshold of a frame; `shift` is at most [`MOST`].

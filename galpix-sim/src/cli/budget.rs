@@ -6,11 +6,12 @@ use galpix_core::colour::Colour;
 use galpix_core::error::BudgetError;
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4, VelocityGray8};
 use galpix_core::record::Record;
+use galpix_core::rounding::Rounding;
 use serde::Serialize;
 
 use super::choices::RoundingChoice;
 use super::{CliError, print, print_json};
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, Method, smallest};
 use crate::experiment::BudgetReport;
 
 /// Layouts by name.
@@ -58,9 +59,19 @@ pub struct Budget {
     /// Bits to take off in depth
     #[arg(long, value_name = "FIELD=BITS", value_parser = shaving)]
     shave_z: Vec<(ShavedField, u32)>,
+    /// Instead of the equations' fraction bits, the fewest whose certificate is at most this, in pixels
+    #[arg(long, value_name = "PX", value_parser = pixels, conflicts_with = "shave")]
+    max_error: Option<f64>,
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+fn pixels(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error.is_finite() => Ok(error),
+        _ => Err("give a positive number of pixels".to_owned()),
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -105,7 +116,19 @@ struct Printed {
     layout: &'static str,
     rounding: &'static str,
     depth: DepthReport,
+    /// The error that the fraction bits were chosen for, in pixels; null where the equations chose.
+    max_error_px: Option<f64>,
     certificate: Certificate,
+    keeps_one_pixel: bool,
+    /// The same widths with each rounding.
+    roundings: Vec<RoundingReport>,
+}
+
+#[derive(Serialize)]
+struct RoundingReport {
+    rounding: &'static str,
+    drift_px: f64,
+    total_px: f64,
     keeps_one_pixel: bool,
 }
 
@@ -131,23 +154,36 @@ impl Budget {
             LayoutChoice::Velocity565 => self.printed::<Velocity565>("velocity565"),
             LayoutChoice::VelocityGray8 => self.printed::<VelocityGray8>("velocity-gray8"),
             LayoutChoice::VelocityGray4 => self.printed::<VelocityGray4>("velocity-gray4"),
-        }
-        .map_err(|error| CliError::Unusable(format!("this budget cannot exist: {error}")))?;
+        }?;
         if self.json { print_json(&printed) } else { print(&text(&printed)) }
     }
 
-    fn printed<L: Layout>(&self, layout: &'static str) -> Result<Printed, BudgetError> {
+    fn printed<L: Layout>(&self, layout: &'static str) -> Result<Printed, CliError> {
+        let impossible = |error: BudgetError| CliError::Unusable(format!("this budget cannot exist: {error}"));
         let demand = Demand { extent: self.extent, recog: self.recog, prop: self.prop };
-        let bits =
-            if L::LANES.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
-        let plane: Component = bits.x.shaved(shave(&self.shave))?;
-        let z = bits.z.shaved(shave(&self.shave_z))?;
-        let bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
-        let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
         let rounding = self.rounding.into();
-        let certificate = Certificate::of(&record.scales[0], L::LANES.acceleration, rounding, self.prop);
+        let bits = if L::LANES.acceleration { Bits::derive(demand) } else { Bits::derive_without_acceleration(demand) };
+        let bits = bits.map_err(impossible)?;
+        let plane: Component = match self.max_error {
+            Some(error) => smallest(bits.x, rounding, self.prop, error).map_err(CliError::unusable)?.0,
+            None => bits.x.shaved(shave(&self.shave)).map_err(impossible)?,
+        };
+        let z = bits.z.shaved(shave(&self.shave_z)).map_err(impossible)?;
+        let bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
+        let record = Record::plan(bits, L::LANES, L::Colour::BITS).map_err(impossible)?;
+        let certify = |rounding| Certificate::of(&record.scales[0], L::LANES.acceleration, rounding, self.prop);
+        let certificate = certify(rounding);
+        let roundings = Rounding::ALL.map(|rounding| {
+            let certificate = certify(rounding);
+            RoundingReport {
+                rounding: rounding.name(),
+                drift_px: certificate.drift_px,
+                total_px: certificate.total_px,
+                keeps_one_pixel: certificate.keeps_one_pixel(),
+            }
+        });
         Ok(Printed {
-            report: BudgetReport::of::<L>(demand, bits)?,
+            report: BudgetReport::of::<L>(demand, bits).map_err(impossible)?,
             used_bits_per_galpixel: record.bits(),
             layout,
             rounding: rounding.name(),
@@ -160,8 +196,10 @@ impl Budget {
                 acceleration_int_bits: z.acceleration_int,
                 acceleration_frac_bits: z.acceleration_frac,
             },
+            max_error_px: self.max_error,
             keeps_one_pixel: certificate.keeps_one_pixel(),
             certificate,
+            roundings: roundings.into(),
         })
     }
 }
@@ -169,7 +207,6 @@ impl Budget {
 fn text(printed: &Printed) -> String {
     let report = &printed.report;
     let certificate = &printed.certificate;
-    let promise = if printed.keeps_one_pixel { "holds" } else { "does not hold" };
     let rows = [
         ("position, fraction", report.position_frac_bits.to_string(), "(11)"),
         ("velocity, integer with sign", report.velocity_int_bits.to_string(), "(8)"),
@@ -188,11 +225,63 @@ fn text(printed: &Printed) -> String {
     for (name, value, source) in rows {
         text.push_str(&format!("  {name:<33}{value:>6}  {source}\n"));
     }
+    if let Some(error) = printed.max_error_px {
+        text.push_str(&format!("the fewest bits whose certificate is at most {error} px\n"));
+    }
     text.push_str(&format!(
-        "certificate with {} rounding, worst case over all states up to tau_prop:\n  quantisation of r, v, a  {:.4} px\n  \
-         rounding drift           {:.4} px\n  total                    {:.4} px\nThe paper's promise of one pixel for {} frames \
-         {promise}. The snap to a cell, at most half a pixel, stands apart.",
-        printed.rounding, certificate.quantisation_px, certificate.drift_px, certificate.total_px, report.prop
+        "certificate with {} rounding, worst case over all states, in pixels\n  frame   position  velocity  acceleration     drift     \
+         total\n",
+        printed.rounding
+    ));
+    for bound in certificate.frames.iter().filter(|bound| told(bound.frame, report.prop)) {
+        text.push_str(&format!(
+            "  {:>5} {:>10.4} {:>9.4} {:>13.4} {:>9.4} {:>9.4}\n",
+            bound.frame,
+            bound.position_px,
+            bound.velocity_px,
+            bound.acceleration_px,
+            bound.drift_px,
+            bound.total_px()
+        ));
+    }
+    text.push_str(&format!(
+        "  quantisation after {} frames {:.4} + largest drift {:.4} = {:.4} px; {}\n",
+        report.prop,
+        certificate.quantisation_px,
+        certificate.drift_px,
+        certificate.total_px,
+        method(certificate)
+    ));
+    text.push_str("the same widths with each rounding\n");
+    for other in &printed.roundings {
+        let promise = if other.keeps_one_pixel { "keeps one pixel" } else { "does not keep one pixel" };
+        text.push_str(&format!(
+            "  {:<16} drift {:.4}  total {:.4} px  {promise}\n",
+            other.rounding, other.drift_px, other.total_px
+        ));
+    }
+    let promise = if printed.keeps_one_pixel { "holds" } else { "does not hold" };
+    text.push_str(&format!(
+        "The paper's promise of one pixel for {} frames {promise}. The snap to a cell, at most half a pixel, stands apart.",
+        report.prop
     ));
     text
+}
+
+/// Of many frames, some are told: the first, the powers of two, the last.
+fn told(frame: u32, prop: u32) -> bool {
+    prop <= 32 || frame.is_power_of_two() || frame == prop
+}
+
+/// How a certificate was found, in words.
+fn method(certificate: &Certificate) -> String {
+    let Certificate { classes, phases, .. } = certificate;
+    match certificate.method {
+        Method::Enumerated => {
+            format!("all {classes} residue classes of velocity and acceleration, from {phases} phases")
+        }
+        Method::Bounded => {
+            format!("{classes} residue classes from {phases} phases are too many to run: an upper bound")
+        }
+    }
 }

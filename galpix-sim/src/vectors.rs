@@ -1,0 +1,16 @@
+//! Golden vectors: inputs and outputs of every kernel and of whole frames, for other implementations and for test benches in
+//! logic. The files are described in `docs/vectors.md`.
+//!
+//! ```text
+//! choice (which cases) ─▶ maps (what is in them) ─▶ run (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
+//! ```
+
+mod case;
+mod choice;
+mod maps;
+mod run;
+mod write;
+
+pub use case::{Case, Manifest, schema};
+pub use choice::cases;
+pub use write::{FORMAT, write};

@@ -1,0 +1,225 @@
+//! What the maps of the vectors hold: words drawn field by field, so that every bit is said by the record alone.
+
+use galpix_core::galpixel::Class;
+use galpix_core::record::{Field, Record};
+
+use super::case::{GridSize, fields};
+
+/// Steele, Lea and Flood's splitmix64: three lines, and the same on every machine for ever.
+#[derive(Clone, Debug)]
+pub struct Random(u64);
+
+impl Random {
+    /// A sequence that `seed` and `name` determine.
+    pub fn new(seed: u64, name: &str) -> Self {
+        // FNV-1a over the name, so that a case keeps its map when others come and go.
+        let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        });
+        Self(hash.wrapping_add(seed))
+    }
+
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number in `0 .. end`.
+    pub fn below(&mut self, end: u32) -> u32 {
+        ((self.next() >> 32) * u64::from(end) >> 32) as u32
+    }
+
+    /// A signed number of `bits` bits.
+    pub fn signed(&mut self, bits: u32) -> i32 {
+        if bits == 0 { 0 } else { self.next() as i32 >> (32 - bits) }
+    }
+}
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// Any class, any content, most of it slow enough to meet others.
+    Random,
+    /// Every field at an end of its range, at 0 or at -1.
+    Extreme,
+    /// Everything wants the middle cell; few depths, so that ties are decided by origin.
+    Collide,
+    /// A plane that is magnified: cracks inside a surface.
+    Zoom,
+    /// The four quarters drift apart, so that gaps between rows cross gaps between columns.
+    Quarters,
+    /// Near blocks slide over a far background with gaps: what is uncovered has neighbours on both, one or no side.
+    Uncover,
+    /// Rows slide down: whole rows are uncovered.
+    Curtain,
+    /// Neighbours move in opposite directions.
+    Checkerboard,
+    /// Everything leaves.
+    Leave,
+    /// Nothing is there.
+    Empty,
+    /// Nothing moves.
+    Still,
+}
+
+impl Picture {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Random,
+        Self::Extreme,
+        Self::Collide,
+        Self::Zoom,
+        Self::Quarters,
+        Self::Uncover,
+        Self::Curtain,
+        Self::Checkerboard,
+        Self::Leave,
+        Self::Empty,
+        Self::Still,
+    ];
+
+    /// Its part of a case's name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Extreme => "extreme",
+            Self::Collide => "collide",
+            Self::Zoom => "zoom",
+            Self::Quarters => "quarters",
+            Self::Uncover => "uncover",
+            Self::Curtain => "curtain",
+            Self::Checkerboard => "checkerboard",
+            Self::Leave => "leave",
+            Self::Empty => "empty",
+            Self::Still => "still",
+        }
+    }
+}
+
+/// Columns and rows of a map, wings included.
+pub fn size(grid: &GridSize) -> (u32, u32) {
+    (grid.left + grid.width + grid.right, grid.top + grid.height + grid.bottom)
+}
+
+/// The words of a map, plane by plane.
+pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Random) -> Vec<u32> {
+    let (columns, rows) = size(grid);
+    let cells = (columns * rows) as usize;
+    let mut map = vec![0; record.words() * cells];
+    for cell in 0..cells {
+        let (x, y) = (cell as u32 % columns, cell as u32 / columns);
+        let mut words = [0; galpix_core::record::MAX_WORDS];
+        for (name, field) in fields(record) {
+            let value = match picture {
+                Picture::Random => random_field(name, field, record, random),
+                Picture::Extreme => extreme_field(name, field, random),
+                _ => 0,
+            };
+            set(&mut words, field, value);
+        }
+        if !matches!(picture, Picture::Random | Picture::Extreme) {
+            drawn(picture, record, [x, y], [columns, rows], random, &mut words);
+        }
+        for (word, value) in words.iter().take(record.words()).enumerate() {
+            map[word * cells + cell] = *value;
+        }
+    }
+    map
+}
+
+/// Replaces a field by the low bits of a value, bit by bit.
+fn set(words: &mut [u32], field: Field, value: i32) {
+    let upper = u32::from(field.bits - field.spill);
+    for bit in 0..u32::from(field.bits) {
+        let (word, place) = match bit.checked_sub(field.spill.into()) {
+            Some(above) => (field.word, u32::from(field.shift) + above),
+            None => (field.word + 1, 32 - u32::from(field.spill) + bit),
+        };
+        debug_assert!(place < 32 && upper <= 32);
+        words[usize::from(word)] |= (value as u32 >> bit & 1) << place;
+    }
+}
+
+/// The fraction bits of a component of the plane.
+fn velocity_frac(record: &Record, name: &str) -> u32 {
+    record.scales[usize::from(name.ends_with('y'))].velocity_frac
+}
+
+fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    match name {
+        "class" => [0, 0, 0, 0, 0, 1, 2, 3][random.below(8) as usize],
+        // Three in four slow, so that galpixels stay and meet; the rest anywhere in the field.
+        "velocity_x" | "velocity_y" if random.below(4) > 0 => {
+            random.signed((velocity_frac(record, name) + 2).min(bits))
+        }
+        "acceleration_x" | "acceleration_y" if random.below(4) > 0 => random.signed(bits.min(4)),
+        // Few different depths: ties, and surfaces that go on.
+        "depth" if random.below(2) > 0 => (random.below(3) << bits.saturating_sub(2)) as i32,
+        _ => random.signed(bits),
+    }
+}
+
+fn extreme_field(name: &str, field: Field, random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    if bits == 0 {
+        return 0;
+    }
+    if name == "class" {
+        return random.below(4) as i32;
+    }
+    let top = (1i64 << (bits - 1)) - 1;
+    [-top - 1, top, 0, -1, -top][random.below(5) as usize] as i32
+}
+
+/// A picture with a shape: class, depth, colour and velocity by place.
+fn drawn(picture: Picture, record: &Record, at: [u32; 2], size: [u32; 2], random: &mut Random, words: &mut [u32]) {
+    let [x, y] = at.map(|n| n as i32);
+    let [columns, rows] = size.map(|n| n as i32);
+    let (from_x, from_y) = (x - columns / 2, y - rows / 2);
+    let range = |eighths: u32| ((1u64 << record.depth().bits) * u64::from(eighths) / 8) as i32;
+    let colour = |spread: u32| (random_colour(x, y, spread)) as i32;
+    // In halves of a cell a frame.
+    let (class, depth, halves) = match picture {
+        Picture::Collide => (Class::Galpixel, range(1 + (at[0] + at[1]) % 3), [-2 * from_x, -2 * from_y]),
+        Picture::Zoom => (Class::Galpixel, range(2), [from_x, from_y]),
+        Picture::Quarters => (Class::Galpixel, range(2), [2 * i32::from(from_x >= 0), 2 * i32::from(from_y >= 0)]),
+        Picture::Uncover => {
+            let near = (x / 3 + y / 4) % 3 == 0;
+            let gap = (x * 7 + y * 5) % 11 == 0;
+            match (near, gap) {
+                (true, _) => (Class::Galpixel, range(1), [4 - 8 * (y / 4 % 2), 2 * (y % 2)]),
+                (false, true) => ([Class::Empty, Class::Debris][(y % 2) as usize], range(7), [0, 0]),
+                (false, false) => (Class::Galpixel, range(5 + at[0] % 2), [0, 0]),
+            }
+        }
+        Picture::Curtain => (Class::Galpixel, range(2), [0, 3 * i32::from(y % 3 > 0)]),
+        Picture::Checkerboard => {
+            let sign = if (x + y) % 2 == 0 { 2 } else { -2 };
+            (Class::Galpixel, range(1 + at[0] % 4), [sign, -sign])
+        }
+        Picture::Leave => (Class::Galpixel, range(3), [4 * columns * if x % 2 == 0 { 1 } else { -1 }, 0]),
+        Picture::Empty => (Class::Empty, 0, [0, 0]),
+        _ => (Class::Galpixel, range(1 + (at[0] ^ at[1]) % 6), [0, 0]),
+    };
+    let top = |bits: u8| (1i64 << (bits.max(1) - 1)) - 1;
+    let velocity = |component: usize| {
+        let raw = i64::from(halves[component]) << record.scales[component].velocity_frac >> 1;
+        let top = top(record.velocity(component).bits);
+        raw.clamp(-top - 1, top) as i32
+    };
+    set(words, record.class(), class as i32);
+    set(words, record.depth(), depth);
+    set(words, record.colour(), colour(random.below(4)));
+    set(words, record.velocity(0), velocity(0));
+    set(words, record.velocity(1), velocity(1));
+    set(words, record.tag(), x + y);
+}
+
+/// A colour that tells places apart.
+fn random_colour(x: i32, y: i32, spread: u32) -> u32 {
+    (x as u32 * 37 + spread) << 16 ^ (y as u32 * 59 + spread) << 8 ^ (x as u32 * 11 + y as u32 * 3 + spread)
+}

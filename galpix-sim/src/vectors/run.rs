@@ -1,0 +1,217 @@
+//! The core, run over a case's inputs.
+
+use galpix_core::budget::{Bits, Component};
+use galpix_core::colour::Colour;
+use galpix_core::edge;
+use galpix_core::error::{BudgetError, SetupError};
+use galpix_core::fill::{Rung, fill};
+use galpix_core::frame::{Controller, Scratch, Settings};
+use galpix_core::galpixel::{Budget as _, Chosen};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::{Grid, Wings};
+use galpix_core::layout::Layout;
+use galpix_core::propagate::{Arrival, arrivals, clamp_velocity, snap, step_position, step_velocity};
+use galpix_core::record::{Record, Scale};
+use galpix_core::resolve::settle;
+use galpix_core::rounding::Rounding;
+use galpix_core::tally::Tally;
+
+use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Resolve, Setting, Step};
+use super::maps::{Picture, Random, size, words};
+use super::write::sha256;
+
+/// Why a case could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Its budget does not fit its layout.
+    #[error("{0}")]
+    Budget(#[from] BudgetError),
+    /// Its map cannot be laid out.
+    #[error("{0}")]
+    Setup(#[from] SetupError),
+}
+
+/// What is run over a picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// What the map shows.
+    pub picture: Picture,
+    /// Its size.
+    pub grid: GridSize,
+    /// Rounding, rung, reach, edge threshold.
+    pub settings: Settings,
+    /// The frame counter of the first map.
+    pub frame: u32,
+    /// Frames that are made of it.
+    pub frames: u32,
+}
+
+/// A layout under a budget, and what can be run with it.
+#[derive(Clone, Copy)]
+pub struct Model {
+    /// Its part of a case's name.
+    pub name: &'static str,
+    /// Bits of the depth field.
+    pub depth_bits: u32,
+    bits: Bits,
+    stages: fn(Bits, &Plan, &mut Random) -> Result<[Content; 3], RunError>,
+    frames: fn(Bits, &Plan, &mut Random) -> Result<Content, RunError>,
+}
+
+impl Model {
+    /// A layout under a budget.
+    pub fn of<L: Layout>(name: &'static str, bits: Bits) -> Result<Self, RunError> {
+        let depth_bits = Chosen::<L>::new(bits)?.record().depth().bits.into();
+        Ok(Self { name, depth_bits, bits, stages: stages::<L>, frames: frames::<L> })
+    }
+
+    /// Resolve, edge and fill of one frame.
+    pub fn stages(&self, plan: &Plan, random: &mut Random) -> Result<[Content; 3], RunError> {
+        (self.stages)(self.bits, plan, random)
+    }
+
+    /// Whole frames.
+    pub fn frames(&self, plan: &Plan, random: &mut Random) -> Result<Content, RunError> {
+        (self.frames)(self.bits, plan, random)
+    }
+}
+
+/// The step kernel over some states of a component.
+pub fn step(component: Component, rounding: Rounding, steps: Vec<(u32, i32, i32, i32)>) -> Content {
+    let scale = Scale::new(component, component.position_frac);
+    let result = |&(frame, r, v, a): &(u32, i32, i32, i32)| {
+        let position = step_position(&scale, rounding.threshold(frame, scale.down), r, v, a);
+        let cells = snap(&scale, position);
+        let raised = step_velocity(&scale, v, a);
+        let velocity = if component.has_acceleration() { clamp_velocity(&scale, raised) } else { v };
+        (position, cells, position - (cells << scale.position_frac), velocity, u32::from(velocity != raised))
+    };
+    let results = steps.iter().map(result).collect();
+    Content::Step(Step { component: component.into(), rounding: rounding.name().to_owned(), steps, results })
+}
+
+/// Memory for a map and what belongs to it.
+struct Lent {
+    starts: Vec<u32>,
+    grid: GridSize,
+}
+
+impl Lent {
+    fn new(grid: GridSize) -> Self {
+        Self { starts: vec![0; size(&grid).1 as usize], grid }
+    }
+
+    fn grid(&mut self) -> Result<Grid<'_>, SetupError> {
+        let GridSize { width, height, left, right, top, bottom } = self.grid;
+        Grid::new(width, height, Wings { left, right, top, bottom }, &mut self.starts)
+    }
+}
+
+/// All planes of a map, one after the other.
+fn planes<L: Layout>(map: &Galpixmap<'_, L, Chosen<L>>) -> Vec<u32> {
+    (0..).map_while(|word| map.plane(word)).flatten().copied().collect()
+}
+
+fn setting<L: Layout>(bits: Bits, record: &Record, grid: GridSize) -> Setting {
+    let colour = match L::Colour::BITS {
+        24 => "rgb888",
+        16 => "rgb565",
+        8 => "gray8",
+        _ => "gray4",
+    };
+    Setting::of::<L>(bits, record, colour, grid)
+}
+
+fn stages<L: Layout>(bits: Bits, plan: &Plan, random: &mut Random) -> Result<[Content; 3], RunError> {
+    let budget = Chosen::<L>::new(bits)?;
+    let record = *budget.record();
+    let mut lent = Lent::new(plan.grid);
+    let grid = lent.grid()?;
+    let front_words = words(plan.picture, &record, &plan.grid, random);
+    let (mut front, mut back) = (front_words.clone(), vec![0; front_words.len()]);
+    let front = Galpixmap::<L, _>::over(grid, budget, &mut front)?;
+    let mut back = Galpixmap::<L, _>::new(grid, budget, &mut back)?;
+    let Settings { rounding, rung, edge_threshold, reach, .. } = plan.settings;
+
+    let mut edges = vec![0; edge::words(&grid)];
+    let marked = edge::mark(&front, edge_threshold, &mut edges);
+    let mut arrived: Vec<Arrival> = arrivals(&front, rounding, plan.frame).collect();
+    for end in (1..arrived.len()).rev() {
+        arrived.swap(end, random.below(end as u32 + 1) as usize);
+    }
+    let mut winners = vec![0; grid.cells() as usize];
+    let settled = settle(arrived.iter().copied(), &mut back, &mut winners);
+    let setting = setting::<L>(bits, &record, plan.grid);
+    let resolve = Resolve {
+        setting: setting.clone(),
+        arrivals: arrived
+            .iter()
+            .map(|arrival| ArrivalWords {
+                source: arrival.source,
+                cell: arrival.cell,
+                words: arrival.words[..record.words()].to_vec(),
+            })
+            .collect(),
+        map: planes(&back),
+        winners: winners.clone(),
+        // Fields saturate on the way, not when they settle.
+        counts: Tally { saturated: 0, ..settled }.into(),
+    };
+    let edge = Edge {
+        setting: setting.clone(),
+        threshold: edge_threshold,
+        front: front_words.clone(),
+        edges: edges.clone(),
+        counts: Tally { edges: marked, ..Tally::default() }.into(),
+    };
+    let (resolved, before) = (planes(&back), winners.clone());
+    let mut tally = Tally::default();
+    fill(&front, &mut back, &mut winners, &edges, rung, reach, &mut tally);
+    let fill = Fill {
+        setting,
+        rung: rung.name().to_owned(),
+        reach,
+        edges,
+        front: front_words,
+        resolved,
+        winners: before,
+        map: planes(&back),
+        winners_after: winners,
+        counts: tally.into(),
+    };
+    Ok([Content::Resolve(resolve), Content::Edge(edge), Content::Fill(fill)])
+}
+
+fn frames<L: Layout>(bits: Bits, plan: &Plan, random: &mut Random) -> Result<Content, RunError> {
+    let budget = Chosen::<L>::new(bits)?;
+    let record = *budget.record();
+    let mut lent = Lent::new(plan.grid);
+    let grid = lent.grid()?;
+    let front_words = words(plan.picture, &record, &plan.grid, random);
+    let (mut front, mut back) = (front_words.clone(), vec![0; front_words.len()]);
+    let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+    let mut controller = Controller::new(
+        Galpixmap::<L, _>::over(grid, budget, &mut front)?,
+        Galpixmap::new(grid, budget, &mut back)?,
+        Scratch { winners: &mut winners, edges: &mut edges },
+    )?;
+    controller.set_frame(plan.frame);
+    let frames = (0..plan.frames)
+        .map(|_| {
+            let counts = controller.step(&plan.settings).into();
+            let map = planes(controller.front());
+            FrameAfter { sha256: sha256(map.iter().flat_map(|word| word.to_le_bytes())), counts, map }
+        })
+        .collect();
+    let Settings { rounding, rung, edge_threshold, reach, .. } = plan.settings;
+    Ok(Content::Frame(Frames {
+        setting: setting::<L>(bits, &record, plan.grid),
+        rounding: rounding.name().to_owned(),
+        rung: rung.name().to_owned(),
+        reach,
+        threshold: if rung >= Rung::Bullet { edge_threshold } else { 0 },
+        frame: plan.frame,
+        front: front_words,
+        frames,
+    }))
+}

@@ -1,0 +1,112 @@
+//! Cases as files: JSON, `$readmemh`, and their hashes.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use super::case::{Case, Content, Entry, FileHash, Manifest, schema};
+use crate::report::write_atomically;
+
+/// The format's name and version: another number where an old reader would go wrong.
+pub const FORMAT: &str = "galpix-vectors-1";
+
+/// The SHA-256 of some bytes, in hexadecimal digits.
+pub fn sha256(bytes: impl Iterator<Item = u8>) -> String {
+    let bytes: Vec<u8> = bytes.collect();
+    Sha256::digest(bytes).iter().fold(String::new(), |mut digits, byte| {
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
+}
+
+/// Writes all cases, the schema and last the manifest into a folder, which is made if it is missing.
+///
+/// *Errors:* what cannot be written, with its path.
+pub fn write(out: &Path, seed: u64, cases: &[Case]) -> Result<Manifest, (std::path::PathBuf, std::io::Error)> {
+    let put = |path: &str, text: &str| {
+        let full = out.join(path);
+        let written = full.parent().map_or(Ok(()), std::fs::create_dir_all);
+        written.and_then(|()| write_atomically(&full, text.as_bytes())).map_err(|error| (full, error))?;
+        Ok(FileHash { path: path.to_owned(), sha256: sha256(text.bytes()) })
+    };
+    put("schema.json", &json(&schema()))?;
+    let mut entries = Vec::with_capacity(cases.len());
+    for case in cases {
+        let mut files = vec![put(&format!("{}/case.json", case.name), &json(case))?];
+        for (name, words) in arrays(&case.content) {
+            files.push(put(&format!("{}/{name}.hex", case.name), &readmemh(&case.name, &name, &words))?);
+        }
+        let (kind, frames) = match &case.content {
+            Content::Step(_) => ("step", Vec::new()),
+            Content::Resolve(_) => ("resolve", Vec::new()),
+            Content::Edge(_) => ("edge", Vec::new()),
+            Content::Fill(_) => ("fill", Vec::new()),
+            Content::Frame(frames) => ("frame", frames.frames.iter().map(|frame| frame.sha256.clone()).collect()),
+        };
+        entries.push(Entry { name: case.name.clone(), kind: kind.to_owned(), files, frames });
+    }
+    let manifest = Manifest { format: FORMAT.to_owned(), seed, cases: entries };
+    put("manifest.json", &json(&manifest))?;
+    Ok(manifest)
+}
+
+fn json(value: &impl Serialize) -> String {
+    // Keys are strings and numbers are integers: there is nothing that JSON cannot say.
+    serde_json::to_string(value).unwrap_or_default() + "\n"
+}
+
+/// Words as `$readmemh` reads them.
+fn readmemh(case: &str, name: &str, words: &[u32]) -> String {
+    let mut text = format!("// {case}: {name}, {} words\n", words.len());
+    for word in words {
+        let _ = writeln!(text, "{word:08x}");
+    }
+    text
+}
+
+/// The arrays of a case by their names.
+fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
+    let named = |list: Vec<(&str, Vec<u32>)>| list.into_iter().map(|(name, words)| (name.to_owned(), words)).collect();
+    match content {
+        Content::Step(step) => {
+            let (inputs, results) = (&step.steps, &step.results);
+            named(vec![
+                ("frame", inputs.iter().map(|&(frame, ..)| frame).collect()),
+                ("r", inputs.iter().map(|&(_, r, ..)| r as u32).collect()),
+                ("v", inputs.iter().map(|&(_, _, v, _)| v as u32).collect()),
+                ("a", inputs.iter().map(|&(.., a)| a as u32).collect()),
+                ("position", results.iter().map(|&(position, ..)| position as u32).collect()),
+                ("cells", results.iter().map(|&(_, cells, ..)| cells as u32).collect()),
+                ("offset", results.iter().map(|&(_, _, offset, ..)| offset as u32).collect()),
+                ("velocity", results.iter().map(|&(_, _, _, velocity, _)| velocity as u32).collect()),
+                ("saturated", results.iter().map(|&(.., saturated)| saturated).collect()),
+            ])
+        }
+        Content::Resolve(resolve) => {
+            let arrivals = &resolve.arrivals;
+            named(vec![
+                ("source", arrivals.iter().map(|arrival| arrival.source).collect()),
+                ("cell", arrivals.iter().map(|arrival| arrival.cell.unwrap_or(u32::MAX)).collect()),
+                ("arrivals", arrivals.iter().flat_map(|arrival| arrival.words.iter().copied()).collect()),
+                ("map", resolve.map.clone()),
+                ("winners", resolve.winners.clone()),
+            ])
+        }
+        Content::Edge(edge) => named(vec![("front", edge.front.clone()), ("edges", edge.edges.clone())]),
+        Content::Fill(fill) => named(vec![
+            ("front", fill.front.clone()),
+            ("resolved", fill.resolved.clone()),
+            ("winners", fill.winners.clone()),
+            ("edges", fill.edges.clone()),
+            ("map", fill.map.clone()),
+            ("winners_after", fill.winners_after.clone()),
+        ]),
+        Content::Frame(frames) => {
+            let first = ("front".to_owned(), frames.front.clone());
+            let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));
+            std::iter::once(first).chain(after).collect()
+        }
+    }
+}
