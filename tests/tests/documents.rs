@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use galpix_core::rounding::Rounding;
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -43,4 +45,19 @@ fn the_readme_names_files_that_exist_and_two_commands() {
         assert!(root().join(target).exists(), "README links to {target}, which is not there");
     }
     assert_eq!(readme.matches("```sh").count(), 2, "exactly two commands");
+}
+
+#[test]
+fn the_specification_has_the_engines_threshold_tables() {
+    let spec = fs::read_to_string(root().join("docs/spec.md")).unwrap();
+    let rows = spec.split("The tables:").nth(1).unwrap().split("\n\n").nth(1).unwrap().lines().skip(2);
+    let mut tables = 0;
+    for (down, row) in (1..).zip(rows) {
+        let numbers: Vec<i32> =
+            row.split('|').nth(2).unwrap().split(',').map(|entry| entry.trim().parse().unwrap()).collect();
+        let engine: Vec<i32> = (0..1 << down).map(|frame| Rounding::Searched.threshold(frame, down)).collect();
+        assert_eq!(numbers, engine, "{down}");
+        tables += 1;
+    }
+    assert_eq!(tables, Rounding::MOST_SEARCHED);
 }

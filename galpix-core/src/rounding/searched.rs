@@ -7,7 +7,7 @@ pub(super) const MOST: u32 = 6;
 #[rustfmt::skip]
 const THRESHOLDS: [u8; 2 << MOST] = [
     0, 0,
-    0, 1,
+    1, 0,
     2, 1, 2, 1,
     6, 1, 3, 4, 3, 4, 6, 1,
     0, 12, 15, 3, 11, 7, 4, 8, 8, 4, 7, 11, 3, 15, 12, 0,
