@@ -7,10 +7,12 @@
 
 mod case;
 mod choice;
+mod hash;
 mod maps;
 mod run;
 mod write;
 
 pub use case::{Case, Manifest, schema};
 pub use choice::cases;
+pub use hash::hashes;
 pub use write::{FORMAT, write};

@@ -68,6 +68,20 @@ pub enum Content {
     Frame(Frames),
 }
 
+impl Content {
+    /// The kind's name.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Step(_) => "step",
+            Self::Resolve(_) => "resolve",
+            Self::Edge(_) => "edge",
+            Self::Fill(_) => "fill",
+            Self::Frame(_) => "frame",
+        }
+    }
+}
+
 /// Steps of one component.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Step {

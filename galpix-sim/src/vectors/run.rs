@@ -17,8 +17,8 @@ use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 
 use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Resolve, Setting, Step};
+use super::hash;
 use super::maps::{Picture, Random, size, words};
-use super::write::sha256;
 
 /// Why a case could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -200,7 +200,7 @@ fn frames<L: Layout>(bits: Bits, plan: &Plan, random: &mut Random) -> Result<Con
         .map(|_| {
             let counts = controller.step(&plan.settings).into();
             let map = planes(controller.front());
-            FrameAfter { sha256: sha256(map.iter().flat_map(|word| word.to_le_bytes())), counts, map }
+            FrameAfter { sha256: hash::frame(&map), counts, map }
         })
         .collect();
     let Settings { rounding, rung, edge_threshold, reach, .. } = plan.settings;

@@ -3,23 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use serde::Serialize;
-use sha2::{Digest, Sha256};
-
 use super::case::{Case, Content, Entry, FileHash, Manifest, schema};
+use super::hash::{hashes, json, sha256};
 use crate::report::write_atomically;
 
 /// The format's name and version: another number where an old reader would go wrong.
 pub const FORMAT: &str = "galpix-vectors-1";
-
-/// The SHA-256 of some bytes, in hexadecimal digits.
-pub fn sha256(bytes: impl Iterator<Item = u8>) -> String {
-    let bytes: Vec<u8> = bytes.collect();
-    Sha256::digest(bytes).iter().fold(String::new(), |mut digits, byte| {
-        let _ = write!(digits, "{byte:02x}");
-        digits
-    })
-}
 
 /// Writes all cases, the schema and last the manifest into a folder, which is made if it is missing.
 ///
@@ -29,32 +18,25 @@ pub fn write(out: &Path, seed: u64, cases: &[Case]) -> Result<Manifest, (std::pa
         let full = out.join(path);
         let written = full.parent().map_or(Ok(()), std::fs::create_dir_all);
         written.and_then(|()| write_atomically(&full, text.as_bytes())).map_err(|error| (full, error))?;
-        Ok(FileHash { path: path.to_owned(), sha256: sha256(text.bytes()) })
+        Ok(FileHash { path: path.to_owned(), sha256: sha256(text.as_bytes()) })
     };
     put("schema.json", &json(&schema()))?;
+    put("hashes.txt", &hashes(cases))?;
     let mut entries = Vec::with_capacity(cases.len());
     for case in cases {
         let mut files = vec![put(&format!("{}/case.json", case.name), &json(case))?];
         for (name, words) in arrays(&case.content) {
             files.push(put(&format!("{}/{name}.hex", case.name), &readmemh(&case.name, &name, &words))?);
         }
-        let (kind, frames) = match &case.content {
-            Content::Step(_) => ("step", Vec::new()),
-            Content::Resolve(_) => ("resolve", Vec::new()),
-            Content::Edge(_) => ("edge", Vec::new()),
-            Content::Fill(_) => ("fill", Vec::new()),
-            Content::Frame(frames) => ("frame", frames.frames.iter().map(|frame| frame.sha256.clone()).collect()),
+        let frames = match &case.content {
+            Content::Frame(frames) => frames.frames.iter().map(|frame| frame.sha256.clone()).collect(),
+            _ => Vec::new(),
         };
-        entries.push(Entry { name: case.name.clone(), kind: kind.to_owned(), files, frames });
+        entries.push(Entry { name: case.name.clone(), kind: case.content.kind().to_owned(), files, frames });
     }
     let manifest = Manifest { format: FORMAT.to_owned(), seed, cases: entries };
     put("manifest.json", &json(&manifest))?;
     Ok(manifest)
-}
-
-fn json(value: &impl Serialize) -> String {
-    // Keys are strings and numbers are integers: there is nothing that JSON cannot say.
-    serde_json::to_string(value).unwrap_or_default() + "\n"
 }
 
 /// Words as `$readmemh` reads them.

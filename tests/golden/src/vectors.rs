@@ -1,0 +1,16 @@
+//! See `galpix_sim::vectors`.
+#![allow(dead_code, missing_docs)]
+
+#[path = "../../../galpix-sim/src/vectors/case.rs"]
+pub mod case;
+#[path = "../../../galpix-sim/src/vectors/choice.rs"]
+mod choice;
+#[path = "../../../galpix-sim/src/vectors/hash.rs"]
+mod hash;
+#[path = "../../../galpix-sim/src/vectors/maps.rs"]
+mod maps;
+#[path = "../../../galpix-sim/src/vectors/run.rs"]
+mod run;
+
+pub use choice::cases;
+pub use hash::hashes;
