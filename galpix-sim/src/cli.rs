@@ -3,6 +3,7 @@
 mod budget;
 mod choices;
 mod demo;
+mod plan;
 mod run;
 mod scenes;
 mod vectors;
@@ -60,6 +61,8 @@ enum Command {
     Run(run::Run),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
+    /// Says what a source does not need for a position error: lanes, bits, rounding, rung
+    Plan(plan::PlanArguments),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
@@ -77,6 +80,7 @@ pub fn main() -> ExitCode {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
         Command::Budget(budget) => budget.run(),
+        Command::Plan(plan) => plan.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
     };

@@ -17,6 +17,7 @@ use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 
 pub use compare::compare;
+pub(crate) use compare::position;
 pub use report::{BudgetReport, FrameReport, PositionReport, RunReport, TruthReport};
 
 use crate::capture::{self, Capture, Census, ImportOptions};
@@ -241,7 +242,8 @@ fn run_as<L: Layout>(
     })
 }
 
-fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
+/// The engine's settings for a request.
+pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
     let depth_bits = u32::from(record.depth().bits);
     let by_kind = match depth_kind {
         DepthKind::Z | DepthKind::Disparity => edge::threshold_for_depth(depth_bits),

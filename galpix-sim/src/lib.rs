@@ -13,6 +13,7 @@ pub mod figure;
 pub mod film;
 pub mod metric;
 pub mod picture;
+pub mod plan;
 pub mod progress;
 pub mod report;
 pub mod scene;

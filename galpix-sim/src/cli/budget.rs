@@ -9,7 +9,7 @@ use galpix_core::record::Record;
 use galpix_core::rounding::Rounding;
 use serde::Serialize;
 
-use super::choices::RoundingChoice;
+use super::choices::{RoundingChoice, pixels};
 use super::{CliError, print, print_json};
 use crate::certificate::{Certificate, Method, smallest};
 use crate::experiment::BudgetReport;
@@ -65,13 +65,6 @@ pub struct Budget {
     /// Print JSON
     #[arg(long)]
     json: bool,
-}
-
-fn pixels(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(error) if error > 0.0 && error.is_finite() => Ok(error),
-        _ => Err("give a positive number of pixels".to_owned()),
-    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -153,3 +153,11 @@ impl Extrapolation {
         })
     }
 }
+
+/// A positive number of pixels.
+pub fn pixels(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(error) if error > 0.0 && error.is_finite() => Ok(error),
+        _ => Err("give a positive number of pixels".to_owned()),
+    }
+}

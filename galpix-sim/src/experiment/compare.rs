@@ -88,7 +88,7 @@ impl Errors {
 }
 
 /// How far the galpixels of a frame are from where they should be.
-pub(super) fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
+pub(crate) fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
     let wings = [update.wings.left as f64, update.wings.top as f64];
     let time = f64::from(frame.number);
     let (mut second_order, mut truth) = (Errors::default(), Errors::default());
