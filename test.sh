@@ -12,7 +12,7 @@ export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format clippy docs tests no-std codegen benches msrv firmware)
+STEPS=(format clippy docs tests no-std codegen model proofs benches msrv firmware)
 
 summary=() passed=0 failed=0 skipped=0
 
@@ -57,6 +57,7 @@ step_format() {
     cargo fmt --version >/dev/null 2>&1 || { skip "rustfmt is not installed"; return; }
     cargo fmt --all -- --check
     cargo fmt --manifest-path tests/codegen/Cargo.toml -- --check
+    bash -n tests/proofs/run.sh
 }
 
 step_clippy() {
@@ -92,6 +93,25 @@ step_codegen() {
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
     # The same features as in the step before: else all is built anew.
     cargo test --locked --workspace --all-features --test codegen
+}
+
+# The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md alone.
+step_model() {
+    command -v python3 >/dev/null || { skip "python3 is not installed"; return; }
+    local seed
+    for seed in 0 1 2; do
+        cargo run --locked --quiet --release -- vectors --seed "$seed" --out "target/vectors/$seed"
+        PYTHONDONTWRITEBYTECODE=1 python3 tests/model/check_vectors.py "target/vectors/$seed" \
+            "$([ "$seed" = 0 ] && echo --require-all-rules || echo --)"
+    done
+}
+
+# The quick form of tests/proofs/run.sh: a solver on the paper's example, and a planted fault for each stage.
+step_proofs() {
+    local status=0
+    tests/proofs/run.sh --quick || status=$?
+    [ "$status" != 3 ] || { skip "python3, or the solver from its package registry, cannot be had here"; return; }
+    return "$status"
 }
 
 step_benches() {

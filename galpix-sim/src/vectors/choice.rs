@@ -2,11 +2,12 @@
 //! used by one of them.
 
 use galpix_core::budget::{Bits, Component, Demand};
+use galpix_core::colour::Rgb565;
 use galpix_core::edge;
 use galpix_core::error::BudgetError;
 use galpix_core::fill::Rung;
 use galpix_core::frame::Settings;
-use galpix_core::layout::{Flat565, Full, Shaded, Still, Velocity565, VelocityGray4, VelocityGray8};
+use galpix_core::layout::{Flat565, Full, Lanes, Layout, Shaded, Still, Velocity565, VelocityGray4, VelocityGray8};
 use galpix_core::rounding::Rounding;
 
 use super::case::{Case, Content, GridSize};
@@ -55,6 +56,19 @@ fn uneven() -> Result<Bits, BudgetError> {
         .with_z(component(2, [4, 9], [3, 9]).checked()?, 6))
 }
 
+/// A position without a fraction along a row, and one exactly as fine as its step along a column.
+fn coarse() -> Result<Bits, BudgetError> {
+    let bits = Bits::derive(Demand { extent: 64, recog: 8, prop: 8 })?;
+    Ok(bits.with_xy(component(0, [5, 3], [3, 3]).checked()?, component(4, [5, 3], [3, 3]).checked()?))
+}
+
+/// Shading inertia where one channel is wider than the others.
+enum Bright565 {}
+impl Layout for Bright565 {
+    type Colour = Rgb565;
+    const LANES: Lanes = Lanes { luminosity: true, tag_bits: 3, ..Lanes::FULL };
+}
+
 /// Layouts and budgets: between them every lane, every colour format, packing with and without fields that straddle words.
 fn models() -> Result<Vec<Model>, RunError> {
     let demand = |extent, recog, prop| Demand { extent, recog, prop };
@@ -66,6 +80,9 @@ fn models() -> Result<Vec<Model>, RunError> {
         Model::of::<Velocity565>("velocity565", Bits::derive_without_acceleration(demand(320, 8, 16))?)?,
         Model::of::<VelocityGray8>("gray8", Bits::derive_without_acceleration(demand(128, 4, 64))?)?,
         Model::of::<VelocityGray4>("gray4", Bits::derive_without_acceleration(demand(128, 8, 16))?)?,
+        Model::of::<Flat565>("coarse", coarse()?)?,
+        Model::of::<Full>("straddle", Bits::derive(demand(200, 4, 32))?)?,
+        Model::of::<Bright565>("bright565", Bits::derive(demand(128, 4, 32))?)?,
         Model::of::<Still>("still", Bits::derive(demand(16, 4, 4))?)?,
     ])
 }
@@ -83,7 +100,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
             let settings = Settings {
                 rounding: Rounding::ALL[turn % Rounding::ALL.len()],
                 rung,
-                reach: [1, 3, 2, 16][turn / 3 % 4],
+                reach: [1, 3, 2, 0, 17][turn / 3 % 5],
                 edge_threshold: [edge::threshold_for_depth(model.depth_bits), 0, u32::MAX][turn / 4 % 3],
                 ..Settings::for_depth(model.depth_bits)
             };
@@ -98,7 +115,12 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
             // The shapes in which holes have neighbours on all sides, with the richest rung.
             if matches!(
                 picture,
-                Picture::Random | Picture::Zoom | Picture::Quarters | Picture::Uncover | Picture::Curtain
+                Picture::Random
+                    | Picture::Zoom
+                    | Picture::Quarters
+                    | Picture::Blocks
+                    | Picture::Uncover
+                    | Picture::Curtain
             ) {
                 let reach = 1 + index as u32 % 3;
                 let edge_threshold = edge::threshold_for_depth(model.depth_bits);
@@ -181,7 +203,29 @@ fn steps(seed: u64) -> Result<Vec<Case>, RunError> {
             cases.push(Case { name, about: "the step kernel of one component".to_owned(), content });
         }
     }
+    for down in 1..=8 {
+        let component = component(4, [4, 3 + down], [2, 3 + down]).checked()?;
+        for rounding in [Rounding::LowDiscrepancy, Rounding::Searched] {
+            let content = run::step(component, rounding, around_thresholds(component, rounding, down));
+            let name = format!("step-thresholds-{down}-{}", rounding.name());
+            let about =
+                format!("each threshold of {down} dropped bits, by steps that just miss and just reach the next one");
+            cases.push(Case { name, about, content });
+        }
+    }
     Ok(cases)
+}
+
+/// For every frame of a period, steps `2v + a` whose dropped bits are just below and just at what the threshold lifts over.
+fn around_thresholds(component: Component, rounding: Rounding, down: u32) -> Vec<(u32, i32, i32, i32)> {
+    debug_assert!(component.acceleration_frac == component.velocity_frac);
+    let period = 1u32 << down;
+    let frames = (0..period).map(|n| if n % 2 == 0 { n } else { n.wrapping_sub(period) });
+    let steps = frames.flat_map(|frame| {
+        let lifted = (period as i32) - rounding.threshold(frame, down);
+        [lifted - 1, lifted, 0, period as i32 - 1].map(|step| (frame, 0, step >> 1, step & 1))
+    });
+    steps.collect()
 }
 
 /// The bits of position, velocity and acceleration.

@@ -51,6 +51,8 @@ pub enum Picture {
     Zoom,
     /// The four quarters drift apart, so that gaps between rows cross gaps between columns.
     Quarters,
+    /// Blocks drift apart over bumps in depth: where gaps cross, any of the four corners may lie on an edge.
+    Blocks,
     /// Near blocks slide over a far background with gaps: what is uncovered has neighbours on both, one or no side.
     Uncover,
     /// Rows slide down: whole rows are uncovered.
@@ -67,12 +69,13 @@ pub enum Picture {
 
 impl Picture {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
         Self::Collide,
         Self::Zoom,
         Self::Quarters,
+        Self::Blocks,
         Self::Uncover,
         Self::Curtain,
         Self::Checkerboard,
@@ -89,6 +92,7 @@ impl Picture {
             Self::Collide => "collide",
             Self::Zoom => "zoom",
             Self::Quarters => "quarters",
+            Self::Blocks => "blocks",
             Self::Uncover => "uncover",
             Self::Curtain => "curtain",
             Self::Checkerboard => "checkerboard",
@@ -187,6 +191,10 @@ fn drawn(picture: Picture, record: &Record, at: [u32; 2], size: [u32; 2], random
         Picture::Collide => (Class::Galpixel, range(1 + (at[0] + at[1]) % 3), [-2 * from_x, -2 * from_y]),
         Picture::Zoom => (Class::Galpixel, range(2), [from_x, from_y]),
         Picture::Quarters => (Class::Galpixel, range(2), [2 * i32::from(from_x >= 0), 2 * i32::from(from_y >= 0)]),
+        Picture::Blocks => {
+            let depth = if random.below(7) == 0 { range(7) } else { range(2) };
+            (Class::Galpixel, depth, [2 * (x / 4 - columns / 8), 2 * (y / 4 - rows / 8)])
+        }
         Picture::Uncover => {
             let near = (x / 3 + y / 4) % 3 == 0;
             let gap = (x * 7 + y * 5) % 11 == 0;

@@ -1,0 +1,454 @@
+"""Check a folder of golden vectors (vectors.md) against the model: every hash, every file, every output, bit by bit.
+
+    python3 check_vectors.py DIR [--require-all-rules]
+
+Exit code 0: all agree. 1: something differs, or (with --require-all-rules) some rule was never reached. 2: the folder
+cannot be read as vectors; one sentence on stderr says why.
+"""
+
+import argparse
+import hashlib
+import json
+import sys
+from collections import Counter, namedtuple
+from pathlib import Path
+
+import galpix_model as model
+
+SHOWN_OF_A_CASE = 5
+SHOWN_DIFFERENCES = 40
+WORD = 1 << 32
+
+
+class Broken(Exception):
+    """The folder does not hold what vectors.md says it holds."""
+
+
+class Differences(list):
+    """Sentences about what differs; counts all, keeps the first few of each case."""
+
+    total = 0
+    of_this_case = 0
+    cases = 0
+
+    def next_case(self):
+        self.of_this_case = 0
+
+    def add(self, sentence):
+        self.total += 1
+        self.cases += self.of_this_case == 0
+        self.of_this_case += 1
+        if self.of_this_case <= SHOWN_OF_A_CASE and len(self) < SHOWN_DIFFERENCES:
+            self.append(sentence)
+
+
+Checked = namedtuple("Checked", "frames numbers")   # frames of the case, and numbers that were compared
+
+
+# --- Reading ---------------------------------------------------------------------------------------------------------
+
+def read_bytes(path):
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise Broken(f"{path} cannot be read: {error.strerror}") from error
+
+
+def parse_json(data, path):
+    try:
+        return json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise Broken(f"{path} is not JSON: {error}") from error
+
+
+def get(mapping, key, kind, where):
+    """mapping[key], which must be of the type `kind`; bool is no int here."""
+    if not isinstance(mapping, dict) or key not in mapping:
+        raise Broken(f"{where}: {key!r} is missing")
+    value = mapping[key]
+    if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
+        raise Broken(f"{where}: {key!r} is not of type {kind.__name__}")
+    return value
+
+
+def get_int(mapping, key, where, low=0, high=WORD - 1):
+    value = get(mapping, key, int, where)
+    if not low <= value <= high:
+        raise Broken(f"{where}: {key!r} is {value}, not within {low} to {high}")
+    return value
+
+
+def get_words(mapping, key, where, length):
+    value = get(mapping, key, list, where)
+    if len(value) != length:
+        raise Broken(f"{where}: {key!r} has {len(value)} words, not {length}")
+    if not all(type(word) is int and 0 <= word < WORD for word in value):
+        raise Broken(f"{where}: {key!r} holds something that is no 32-bit word")
+    return value
+
+
+def get_choice(mapping, key, choices, where):
+    value = get(mapping, key, str, where)
+    if value not in choices:
+        raise Broken(f"{where}: {key!r} is {value!r}, none of {', '.join(choices)}")
+    return value
+
+
+def read_hex(data, path):
+    """The words of a .hex file; lines that begin with // are comments."""
+    words = []
+    try:
+        lines = data.decode("ascii").splitlines()
+    except UnicodeDecodeError as error:
+        raise Broken(f"{path} is not plain text") from error
+    for number, line in enumerate(lines, 1):
+        if line.startswith("//"):
+            continue
+        if len(line) != 8 or not set(line) <= set("0123456789abcdefABCDEF"):
+            raise Broken(f"{path}, line {number}: not 8 hexadecimal digits")
+        words.append(int(line, 16))
+    return words
+
+
+def read_component(entry, where):
+    return model.Component(*(get_int(entry, name, where, 0, 64) for name in model.Component._fields))
+
+
+def read_engine(case, where):
+    """Budget, layout and grid of a case as the model's engine; widths that section 2 refuses are no vectors."""
+    budget = get(case, "budget", dict, where)
+    components = get(budget, "components", list, where)
+    if len(components) != 3:
+        raise Broken(f"{where}: the budget has {len(components)} components, not 3")
+    numbers = (get_int(budget, name, where, 0, 64) for name in model.Budget._fields[1:])
+    budget = model.Budget(tuple(read_component(entry, where) for entry in components), *numbers)
+    entry = get(case, "layout", dict, where)
+    layout = model.Layout(
+        get_int(entry, "depth_bits", where), *(get(entry, lane, bool, where) for lane in
+                                               ("velocity", "acceleration", "depth_motion", "luminosity")),
+        get_int(entry, "tag_bits", where), get_choice(entry, "colour", model.FORMATS, where))
+    grid = get(case, "grid", dict, where)
+    grid = model.Grid(*(get_int(grid, name, where) for name in model.Grid._fields))
+    return model.Engine(budget, layout, grid)
+
+
+# --- Comparing -------------------------------------------------------------------------------------------------------
+
+def compare_numbers(name, expected, got, where, differences):
+    """Two lists of numbers, one difference for each place."""
+    if len(expected) != len(got):
+        differences.add(f"{where}: {name} has {len(expected)} numbers, expected by the model {len(got)}")
+        return
+    if expected == got:
+        return
+    for index, (mine, theirs) in enumerate(zip(expected, got)):
+        if mine != theirs:
+            differences.add(f"{where}, cell {index}, {name}: expected {mine}, got {theirs}")
+
+
+def compare_map(name, expected, galpixels, engine, where, differences):
+    """A map of the vectors and one of the model; the differences are told field by field."""
+    record, cells = engine.record, len(galpixels)
+    got = model.pack_map(galpixels, record)
+    if expected == got:
+        return got
+    for cell in range(cells):
+        mine, theirs = expected[cell::cells], got[cell::cells]
+        if mine == theirs:
+            continue
+        mine_fields, theirs_fields = model.unpack(mine, record), model.unpack(theirs, record)
+        fields = [field for field in model.FIELDS if mine_fields[field] != theirs_fields[field]]
+        for field in fields:
+            differences.add(f"{where}, {name}, cell {cell}, {field}: expected {mine_fields[field]}, "
+                            f"got {theirs_fields[field]}")
+        if not fields:
+            differences.add(f"{where}, {name}, cell {cell}, bits of no field: expected "
+                            f"{' '.join(f'{word:08x}' for word in mine)}, "
+                            f"got {' '.join(f'{word:08x}' for word in theirs)}")
+    return got
+
+
+def compare_counts(mapping, counts, where, differences):
+    """All ten counts; those that a stage alone does not count are 0."""
+    expected = get(mapping, "counts", dict, where)
+    if set(expected) != set(model.COUNTS):
+        differences.add(f"{where}: the counts are named {sorted(expected)}")
+    for name in model.COUNTS:
+        if expected.get(name) != counts.get(name, 0):
+            differences.add(f"{where}, count {name}: expected {expected.get(name)}, got {counts.get(name, 0)}")
+
+
+def compare_record(case, record, where, differences):
+    """Section 4's result. Of an absent field only the bits are compared: the text gives it no place."""
+    expected = get(case, "record", dict, where)
+    if get_int(expected, "words", where) != record.words:
+        differences.add(f"{where}: record of {expected['words']} words, got {record.words}")
+    fields = get(expected, "fields", list, where)
+    names = [get(entry, "name", str, where) for entry in fields]
+    if names != list(model.FIELDS):
+        differences.add(f"{where}: the fields of the record are {names}")
+        return
+    for entry, place in zip(fields, record.places):
+        for part in ("bits", "word", "shift", "spill") if place.bits else ("bits",):
+            if get_int(entry, part, where) != getattr(place, part):
+                differences.add(f"{where}, record, {place.name}.{part}: expected {entry[part]}, "
+                                f"got {getattr(place, part)}")
+
+
+# --- The five kinds --------------------------------------------------------------------------------------------------
+# Each returns (Checked, arrays that must stand in the .hex files by name).
+
+def low_words(numbers):
+    return [number % WORD for number in numbers]
+
+
+def check_step(case, where, differences):
+    component = read_component(get(case, "component", dict, where), where)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    steps, results = get(case, "steps", list, where), get(case, "results", list, where)
+    for rows, width in ((steps, 4), (results, 5)):
+        if not all(isinstance(row, list) and len(row) == width and all(type(x) is int for x in row) for row in rows):
+            raise Broken(f"{where}: a step or result is not a list of {width} integers")
+    if len(steps) != len(results):
+        raise Broken(f"{where}: {len(steps)} steps, but {len(results)} results")
+    lane = component.acceleration_int > 0
+    model.check_component(component, lane, component.position_frac, "the component")
+    shifts = model.component_shifts(component, component.position_frac)
+    bits = component.velocity_int + component.velocity_frac
+    for index, ((n, r, v, a), expected) in enumerate(zip(steps, results)):
+        thresh = model.threshold(rounding, shifts.down, n)
+        r1, v1, clamped = model.step(r, v, a, shifts, thresh, bits, lane)
+        cells, offset = model.cells_moved(r1, component.position_frac)
+        got = [r1, cells, offset, v1, abs(clamped)]
+        if expected != got:
+            for name, mine, theirs in zip(("position", "cells", "offset", "velocity", "saturated"), expected, got):
+                if mine != theirs:
+                    differences.add(f"{where}, step {index} {steps[index]}, {name}: expected {mine}, got {theirs}")
+    arrays = {name: low_words(column) for name, column in
+              zip(("frame", "r", "v", "a"), zip(*steps))} if steps else {}
+    arrays.update({name: low_words(column) for name, column in
+                   zip(("position", "cells", "offset", "velocity", "saturated"), zip(*results))} if results else {})
+    return Checked(0, 5 * len(results)), arrays
+
+
+def check_resolve(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    arrivals, arrays = [], {"source": [], "cell": [], "arrivals": []}
+    for entry in get(case, "arrivals", list, where):
+        words = get_words(entry, "words", where, record.words)
+        source = get_int(entry, "source", where)
+        if "cell" not in entry:
+            raise Broken(f"{where}: an arrival has no 'cell'")
+        cell = None if entry["cell"] is None else get_int(entry, "cell", where, 0, cells - 1)
+        arrivals.append(model.Arrival(source, cell, model.unpack(words, record)))
+        arrays["source"].append(source)
+        arrays["cell"].append(WORD - 1 if cell is None else cell)
+        arrays["arrivals"] += words
+    arrays["map"] = get_words(case, "map", where, record.words * cells)
+    arrays["winners"] = get_words(case, "winners", where, cells)
+    back, winners, counts = model.resolve(arrivals, cells)
+    compare_map("map", arrays["map"], back, engine, where, differences)
+    compare_numbers("winner", arrays["winners"], winners, where, differences)
+    compare_counts(case, counts, where, differences)
+    return Checked(0, len(arrays["map"]) + cells + len(model.COUNTS)), arrays
+
+
+def check_edge(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    front = get_words(case, "front", where, record.words * cells)
+    expected = get_words(case, "edges", where, -(-cells // 32))
+    edges = model.edge_map(model.unpack_map(front, record, cells), engine.grid, get_int(case, "threshold", where))
+    if expected != model.edge_words(edges):
+        compare_numbers("edge bit", [int(bit) for bit in model.edge_bits(expected, cells)],
+                        [int(bit) for bit in edges], where, differences)
+        if expected[-1] >> ((cells - 1) % 32 + 1):
+            differences.add(f"{where}: bits beyond the last cell of the edge map are set")
+    compare_counts(case, {"edges": sum(edges)}, where, differences)
+    return Checked(0, cells + len(model.COUNTS)), {"front": front, "edges": expected}
+
+
+def check_fill(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rung = get_choice(case, "rung", model.RUNGS, where)
+    arrays = {name: get_words(case, name, where, record.words * cells) for name in ("front", "resolved", "map")}
+    arrays.update({name: get_words(case, name, where, cells) for name in ("winners", "winners_after")})
+    # rungs that tell no surfaces apart make no edge map; the text does not say what stands here for them
+    length = -(-cells // 32) if model.tells_surfaces_apart(rung) or case.get("edges") else 0
+    arrays["edges"] = get_words(case, "edges", where, length)
+    edges = model.edge_bits(arrays["edges"], cells) if length else None
+    galpixels, winners, counts = model.fill(
+        engine, rung, get_int(case, "reach", where), edges, model.unpack_map(arrays["front"], record, cells),
+        model.unpack_map(arrays["resolved"], record, cells), arrays["winners"])
+    compare_map("map", arrays["map"], galpixels, engine, where, differences)
+    compare_numbers("winner after", arrays["winners_after"], winners, where, differences)
+    compare_counts(case, counts, where, differences)
+    return Checked(0, len(arrays["map"]) + cells + len(model.COUNTS)), arrays
+
+
+def check_frame(case, where, differences, manifest_hashes):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    rung = get_choice(case, "rung", model.RUNGS, where)
+    reach, edge_threshold = get_int(case, "reach", where), get_int(case, "threshold", where)
+    n = get_int(case, "frame", where)
+    arrays = {"front": get_words(case, "front", where, record.words * cells)}
+    galpixels = model.unpack_map(arrays["front"], record, cells)
+    frames = get(case, "frames", list, where)
+    if len(frames) != len(manifest_hashes):
+        differences.add(f"{where}: {len(frames)} frames, but {len(manifest_hashes)} hashes of frames in the manifest")
+    numbers = 0
+    for number, entry in enumerate(frames, 1):
+        here = f"{where}, frame {number}"
+        expected = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
+        galpixels, n, counts = model.frame(engine, galpixels, n, rounding, rung, reach, edge_threshold)
+        got = compare_map("map", expected, galpixels, engine, here, differences)
+        compare_counts(entry, counts, here, differences)
+        digest = model.frame_hash(got)
+        if get(entry, "sha256", str, here) != digest:
+            differences.add(f"{here}, hash: expected {entry['sha256']}, got {digest}")
+        if number <= len(manifest_hashes) and manifest_hashes[number - 1] != digest:
+            differences.add(f"{here}, hash in the manifest: expected {manifest_hashes[number - 1]}, got {digest}")
+        numbers += len(expected) + len(model.COUNTS) + 1
+    return Checked(len(frames), numbers), arrays
+
+
+CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame}
+COMPARED = {
+    "step": "positions, cells, offsets, velocities, saturation",
+    "resolve": "records, maps, winners, counts",
+    "edge": "records, edges, counts",
+    "fill": "records, maps, winners, counts",
+    "frame": "records, maps, counts, hashes",
+}
+
+
+# --- The folder ------------------------------------------------------------------------------------------------------
+
+def check_files(folder, entry, where, differences):
+    """Hashes of all files of a case; returns their contents by path."""
+    contents = {}
+    for file in get(entry, "files", list, where):
+        path = get(file, "path", str, where)
+        if Path(path).is_absolute() or ".." in Path(path).parts:
+            raise Broken(f"{where}: the path {path!r} leads out of the folder")
+        contents[path] = read_bytes(folder / path)
+        digest = hashlib.sha256(contents[path]).hexdigest()
+        if get(file, "sha256", str, where) != digest:
+            differences.add(f"{path}: SHA-256 expected {file['sha256']}, got {digest}")
+    return contents
+
+
+def check_hex(name, arrays, contents, differences):
+    """The .hex files of a case carry exactly its arrays."""
+    files = {path for path in contents if path.endswith(".hex")}
+    for array, words in arrays.items():
+        path = f"{name}/{array}.hex"
+        if path not in files:
+            differences.add(f"{path} is not in the manifest")
+            continue
+        files.remove(path)
+        got = read_hex(contents[path], path)
+        if got != words:
+            place = next((i for i, (x, y) in enumerate(zip(got, words)) if x != y), min(len(got), len(words)))
+            differences.add(f"{path} and case.json differ from word {place} on")
+    for path in sorted(files):
+        differences.add(f"{path} is none of the arrays of the case")
+
+
+def check_case(folder, entry, differences):
+    """One case of the manifest: (kind, Checked)."""
+    name = get(entry, "name", str, "manifest.json")
+    where = f"case {name}"
+    contents = check_files(folder, entry, where, differences)
+    path = f"{name}/case.json"
+    if path not in contents:
+        raise Broken(f"{where}: {path} is not among its files")
+    case = parse_json(contents[path], path)
+    kind = get_choice(case, "kind", CHECKS, where)
+    get(case, "about", str, where)
+    if get(case, "name", str, where) != name or get(entry, "kind", str, where) != kind:
+        differences.add(f"{where}: name or kind is not the one in the manifest")
+    hashes = get(entry, "frames", list, where) if "frames" in entry else []
+    try:
+        if kind == "frame":
+            checked, arrays = check_frame(case, where, differences, hashes)
+        else:
+            if hashes:
+                differences.add(f"{where}: hashes of frames in the manifest, but it is no frame case")
+            checked, arrays = CHECKS[kind](case, where, differences)
+    except model.Refused as error:
+        raise Broken(f"{where}: refused by the specification: {error}") from error
+    except (ArithmeticError, LookupError, TypeError, ValueError) as error:
+        raise Broken(f"{where}: the model cannot work on it: {type(error).__name__}: {error}") from error
+    check_hex(name, arrays, contents, differences)
+    on_disc = {f"{name}/{file.name}" for file in (folder / name).iterdir()}
+    for path in sorted(on_disc - set(contents)):
+        differences.add(f"{path} is not in the manifest")
+    return kind, checked
+
+
+def check_folder(folder, differences):
+    """All of the folder: for each kind the number of cases, of frames and of numbers compared."""
+    if not folder.is_dir():
+        raise Broken(f"{folder} is not a folder")
+    manifest = parse_json(read_bytes(folder / "manifest.json"), folder / "manifest.json")
+    if get(manifest, "format", str, "manifest.json") != "galpix-vectors-1":
+        raise Broken(f"manifest.json: the format is {manifest['format']!r}, not 'galpix-vectors-1'")
+    get_int(manifest, "seed", "manifest.json", 0, (1 << 64) - 1)
+    parse_json(read_bytes(folder / "schema.json"), folder / "schema.json")
+    cases, frames, numbers = Counter(), Counter(), Counter()
+    for entry in get(manifest, "cases", list, "manifest.json"):
+        differences.next_case()
+        kind, checked = check_case(folder, entry, differences)
+        cases[kind] += 1
+        frames[kind] += checked.frames
+        numbers[kind] += checked.numbers
+    if not cases:
+        raise Broken("manifest.json: there are no cases")
+    return cases, frames, numbers
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Check golden vectors against the model.")
+    parser.add_argument("folder", type=Path, metavar="DIR")
+    parser.add_argument("--require-all-rules", action="store_true",
+                        help="fail if any rule that vectors can reach was never reached")
+    arguments = parser.parse_args()
+    differences = Differences()
+    try:
+        cases, frames, numbers = check_folder(arguments.folder, differences)
+    except Broken as error:
+        print(f"check_vectors.py: {error}", file=sys.stderr)
+        return 2
+    for kind in CHECKS:
+        if cases[kind]:
+            print(f"{kind}: {cases[kind]} cases{f', {frames[kind]} frames' if kind == 'frame' else ''}, "
+                  f"{numbers[kind]} numbers compared ({COMPARED[kind]})")
+    code = 0
+    if differences:
+        print(f"{differences.total} differences in {differences.cases} of {sum(cases.values())} cases"
+              f"{', the first' if differences.total > len(differences) else ''}:")
+        for sentence in differences:
+            print(f"  {sentence}")
+        code = 1
+    if arguments.require_all_rules:
+        never = [rule for rule in model.RULES if not model.reached[rule]]
+        print(f"{len(model.RULES) - len(never)} of {len(model.RULES)} rules reached")
+        for rule in never:
+            print(f"  never reached: {rule}")
+        code = 1 if never else code
+    if not differences:
+        print(f"{sum(cases.values())} cases, {sum(frames.values())} frames agree")
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())

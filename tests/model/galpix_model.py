@@ -1,0 +1,1067 @@
+"""A second implementation of the galpixmap, written from spec.md alone, to be read beside it.
+
+One section of the spec after another; the number of the section stands in each docstring. It is meant to be plain, not
+quick. A galpixel is a dict of the 14 fields of section 3 (an absent field is there, and is 0); it is never changed in
+place, so that a copy may share it. A map is a list of galpixels, one a cell.
+
+Every rule of the text that is used is counted in `reached`, by its name in `RULES`; rules that no kind of vector file
+can reach (derivation of a budget, loading, showing) are named in `RULES_BEYOND_VECTORS` instead.
+"""
+
+import hashlib
+import struct
+from collections import Counter, namedtuple
+from fractions import Fraction
+
+reached = Counter()
+
+
+class Refused(ValueError):
+    """A budget, layout or grid that does not pass the checks of sections 2 and 6."""
+
+
+# --- 1. Notation -----------------------------------------------------------------------------------------------------
+
+COMPONENTS = ("x", "y", "depth")
+
+
+def clamp(x, low, high):
+    """Section 1."""
+    return max(low, min(x, high))
+
+
+def lowest(bits):
+    """Section 1: the least value of a signed field of `bits` bits (0 for an absent one)."""
+    return -(1 << bits - 1) if bits else 0
+
+
+def highest(bits):
+    """Section 1: the greatest value of a signed field of `bits` bits (0 for an absent one)."""
+    return (1 << bits - 1) - 1 if bits else 0
+
+
+def low_bits(x, bits):
+    """Section 1: "the low n bits of x" in two's complement; Python's & works on that form."""
+    return x & ((1 << bits) - 1)
+
+
+def as_signed(x, bits):
+    """Section 1: the signed number whose low `bits` bits are `x`."""
+    return x - (1 << bits) if bits and x >> (bits - 1) else x
+
+
+def ceil_log2(q):
+    """Section 1: the smallest k, possibly negative, with 2^k >= q."""
+    q = Fraction(q)
+    k = 0
+    while Fraction(2) ** k < q:
+        k += 1
+    while Fraction(2) ** (k - 1) >= q:
+        k -= 1
+    return k
+
+
+# --- 2. Budget -------------------------------------------------------------------------------------------------------
+
+Component = namedtuple("Component", "position_frac velocity_int velocity_frac acceleration_int acceleration_frac")
+Budget = namedtuple("Budget", "components depth_int luminosity_int luminosity_frac")
+Layout = namedtuple("Layout", "depth_bits velocity acceleration depth_motion luminosity tag_bits colour")
+
+
+def derive_budget(d, recog, prop, acceleration):
+    """Section 2: the table of widths, from the three design numbers (integers or Fractions)."""
+    d, recog, prop = Fraction(d), Fraction(recog), Fraction(prop)
+    if d <= 0 or recog <= 0 or prop < 2:
+        reached["2 design numbers refused"] += 1
+        raise Refused("D and recog must be positive, and prop at least 2")
+    position_frac = ceil_log2(prop)
+    if acceleration:
+        reached["2 derived with acceleration"] += 1
+        velocity_int = ceil_log2(d / recog) + 3
+        acceleration_int = ceil_log2(d / recog ** 2) + 4
+        acceleration_frac = ceil_log2(prop ** 2 / 2)
+        velocity_frac = acceleration_frac
+    else:
+        reached["2 derived without acceleration"] += 1
+        velocity_int = ceil_log2(d / recog) + 1
+        acceleration_int = 0
+        acceleration_frac = 0
+        velocity_frac = position_frac
+    if velocity_int < 1 or (acceleration and acceleration_int < 1):
+        reached["2 derived width below 1 refused"] += 1
+        raise Refused("a derived width of velocity_int or acceleration_int is below 1")
+    component = Component(position_frac, velocity_int, velocity_frac, acceleration_int, acceleration_frac)
+    luminosity_int = ceil_log2(256 / recog) + 1
+    if luminosity_int < 1:
+        reached["2 luminosity_int raised to 1"] += 1
+        luminosity_int = 1
+    return Budget((component,) * 3, ceil_log2(d), luminosity_int, position_frac)
+
+
+def require(condition, sentence):
+    """Section 2: one check."""
+    if not condition:
+        reached["2 budget or layout refused"] += 1
+        raise Refused(sentence)
+
+
+def check_component(component, acceleration, position_frac, name):
+    """Section 2: the checks of one component; `position_frac` is its own, or for depth motion that of section 5."""
+    c = component
+    require(c.velocity_int >= 1, f"{name}: velocity_int below 1")
+    require(c.acceleration_int >= (1 if acceleration else 0), f"{name}: acceleration_int too small")
+    if acceleration:
+        require(c.acceleration_frac <= c.velocity_frac, f"{name}: acceleration_frac > velocity_frac")
+    require(c.position_frac <= 16, f"{name}: position_frac > 16")
+    wider = max(c.velocity_int, c.acceleration_int)
+    require(wider + c.velocity_frac + max(0, position_frac - c.velocity_frac - 1) <= 30, f"{name}: velocity too wide")
+    require(c.velocity_frac + 2 - position_frac <= 30, f"{name}: too many dropped bits")
+
+
+def check_layout(budget, layout):
+    """Section 2: all checks of the components that the layout uses, and of the layout itself."""
+    require(layout.colour in FORMATS, f"unknown colour format {layout.colour!r}")
+    require(layout.velocity or not layout.acceleration, "acceleration needs velocity")
+    require(not layout.depth_motion or (layout.depth_bits > 0 and layout.velocity),
+            "depth motion needs depth and velocity")
+    x, y, depth = budget.components
+    if layout.velocity:
+        check_component(x, layout.acceleration, x.position_frac, "x")
+        check_component(y, layout.acceleration, y.position_frac, "y")
+    widths = field_widths(budget, layout)
+    require(widths["depth"] <= 28, "the depth field has more than 28 bits")
+    if layout.depth_motion:
+        require(widths["depth"] >= budget.depth_int, "the depth field has fewer bits than depth_int")
+        check_component(depth, layout.acceleration, depth_position_frac(budget, layout), "depth")
+    if layout.luminosity:
+        require(budget.luminosity_int + budget.luminosity_frac <= 30, "luminosity too wide")
+    require(sum(widths.values()) <= 256, "the fields together have more than 256 bits")
+    for lane in ("velocity", "acceleration", "depth_motion", "luminosity"):
+        reached[f"3 {lane} lane" if getattr(layout, lane) else f"3 no {lane} lane"] += 1
+    reached["3 depth lane" if layout.depth_bits else "3 no depth lane"] += 1
+    reached["3 tag lane" if layout.tag_bits else "3 no tag lane"] += 1
+    reached[f"9 format {layout.colour}"] += 1
+
+
+# --- 3. Fields -------------------------------------------------------------------------------------------------------
+
+FIELDS = ("class", "depth", "offset_x", "offset_y", "velocity_x", "acceleration_x", "velocity_y", "acceleration_y",
+          "velocity_depth", "acceleration_depth", "colour", "tag", "luminosity_rate", "luminosity")
+SIGNED = frozenset(("offset_x", "offset_y", "velocity_x", "acceleration_x", "velocity_y", "acceleration_y",
+                    "velocity_depth", "acceleration_depth", "luminosity_rate"))
+
+GALPIXEL, JUST_UNOBSCURED, DEBRIS, EMPTY = range(4)
+
+
+def field_widths(budget, layout):
+    """Section 3: the bits of each field, 0 for an absent one."""
+    widths = dict.fromkeys(FIELDS, 0)
+    widths["class"] = 2
+    widths["depth"] = layout.depth_bits + (budget.components[2].position_frac if layout.depth_motion else 0)
+    for number, name in enumerate(COMPONENTS):
+        component = budget.components[number]
+        carried = layout.depth_motion if name == "depth" else layout.velocity
+        if carried:
+            if name != "depth":
+                widths[f"offset_{name}"] = component.position_frac
+            widths[f"velocity_{name}"] = component.velocity_int + component.velocity_frac
+            if layout.acceleration:
+                widths[f"acceleration_{name}"] = component.acceleration_int + component.acceleration_frac
+    widths["colour"] = FORMATS[layout.colour].bits
+    widths["tag"] = layout.tag_bits
+    if layout.luminosity:
+        widths["luminosity_rate"] = budget.luminosity_int + budget.luminosity_frac
+        widths["luminosity"] = budget.luminosity_frac
+    return widths
+
+
+def empty_galpixel():
+    """Section 3: class empty, every other field 0."""
+    galpixel = dict.fromkeys(FIELDS, 0)
+    galpixel["class"] = EMPTY
+    return galpixel
+
+
+# --- 4. Stored words -------------------------------------------------------------------------------------------------
+
+Place = namedtuple("Place", "name bits word shift spill")
+Record = namedtuple("Record", "words places")
+
+
+def first_fit(widths, words):
+    """Section 4, rule 1: the fields of each word, or None if some field finds no room within `words` words."""
+    room = [32] * words
+    fields_of_word = [[] for _ in range(words)]
+    # sorted() is stable: fields of equal width stay in canonical order
+    for name in sorted((name for name in FIELDS if widths[name]), key=lambda name: -widths[name]):
+        for word in range(words):
+            if room[word] >= widths[name]:
+                room[word] -= widths[name]
+                fields_of_word[word].append(name)
+                break
+        else:
+            return None
+    return fields_of_word
+
+
+def make_record(widths):
+    """Section 4: where each field is stored. Absent fields get a place of 0 bits at bit 0 of word 0."""
+    # a place spans two words at most, and section 1 speaks of 32-bit words; the text has no check of it for the tag
+    require(max(widths.values()) <= 32, "a field has more than 32 bits")
+    total = sum(widths.values())
+    words = -(-total // 32)
+    places = {name: Place(name, 0, 0, 0, 0) for name in FIELDS}
+    fields_of_word = first_fit(widths, words)
+    if fields_of_word is not None:
+        reached["4 first fit"] += 1
+        for word, names in enumerate(fields_of_word):
+            top = 32
+            for name in sorted(names, key=FIELDS.index):
+                top -= widths[name]
+                places[name] = Place(name, widths[name], word, top, 0)
+    else:
+        reached["4 end to end"] += 1
+        begin = 0
+        for name in FIELDS:
+            bits = widths[name]
+            if bits == 0:
+                continue
+            word, used = divmod(begin, 32)
+            spill = max(0, used + bits - 32)
+            if spill:
+                reached["4 field spills"] += 1
+            places[name] = Place(name, bits, word, 32 - used - (bits - spill), spill)
+            begin += bits
+    return Record(words, tuple(places[name] for name in FIELDS))
+
+
+def read_field(words, place):
+    """Section 4: one field from the words of one galpixel."""
+    value = low_bits(words[place.word] >> place.shift, place.bits - place.spill)
+    if place.spill:
+        value = value << place.spill | words[place.word + 1] >> (32 - place.spill)
+    return as_signed(value, place.bits) if place.name in SIGNED else value
+
+
+def write_field(words, place, value):
+    """Section 4: one field into the words of one galpixel, which are 0 there before."""
+    value = low_bits(value, place.bits)
+    words[place.word] |= value >> place.spill << place.shift
+    if place.spill:
+        words[place.word + 1] |= low_bits(value, place.spill) << (32 - place.spill)
+
+
+def unpack(words, record):
+    """Section 4: a galpixel from its words."""
+    return {place.name: read_field(words, place) if place.bits else 0 for place in record.places}
+
+
+def pack(galpixel, record):
+    """Section 4: the words of a galpixel; bits of no field are 0."""
+    words = [0] * record.words
+    for place in record.places:
+        if place.bits:
+            write_field(words, place, galpixel[place.name])
+    return words
+
+
+def unpack_map(words, record, cells):
+    """Section 4: a map from its words, plane by plane: word k of cell c at k * cells + c."""
+    return [unpack(words[c::cells], record) for c in range(cells)]
+
+
+def pack_map(galpixels, record):
+    """Section 4: the words of a map, plane by plane."""
+    packed = [pack(galpixel, record) for galpixel in galpixels]
+    return [words[k] for k in range(record.words) for words in packed]
+
+
+# --- 5. Arithmetic of a component ------------------------------------------------------------------------------------
+
+ROUNDINGS = ("truncate", "nearest", "low-discrepancy", "searched")
+
+SEARCHED = {
+    1: (1, 0),
+    2: (2, 1, 2, 1),
+    3: (6, 1, 3, 4, 3, 4, 6, 1),
+    4: (0, 12, 15, 3, 11, 7, 4, 8, 8, 4, 7, 11, 3, 15, 12, 0),
+    5: (26, 3, 12, 0, 21, 30, 16, 22, 18, 11, 3, 27, 13, 21, 7, 14, 9, 18, 27, 19, 5, 13, 31, 6, 1, 27, 20, 9, 29, 5,
+        23, 4),
+    6: (7, 30, 23, 7, 56, 14, 37, 58, 15, 50, 29, 16, 0, 56, 51, 60, 56, 11, 7, 24, 41, 55, 58, 36, 20, 4, 15, 63, 18,
+        1, 33, 44, 31, 17, 53, 40, 25, 47, 10, 19, 44, 18, 63, 48, 34, 22, 18, 27, 23, 40, 39, 55, 10, 29, 26, 4, 62,
+        26, 47, 32, 3, 37, 59, 12),
+}
+
+Shifts = namedtuple("Shifts", "acceleration_up down up")
+
+
+def depth_position_frac(budget, layout):
+    """Section 5: the fraction bits of a depth: what the depth field has below the bins of the depth range."""
+    return max(0, field_widths(budget, layout)["depth"] - budget.depth_int)
+
+
+def component_shifts(component, position_frac):
+    """Section 5: acceleration_up, down and up."""
+    return Shifts(max(0, component.velocity_frac - component.acceleration_frac),
+                  max(0, component.velocity_frac + 1 - position_frac),
+                  max(0, position_frac - component.velocity_frac - 1))
+
+
+def reversed_bits(n, bits):
+    """Section 5: the low `bits` bits of n in reverse order."""
+    result = 0
+    for bit in range(bits):
+        result = result << 1 | (n >> bit & 1)
+    return result
+
+
+def threshold(rounding, down, n):
+    """Section 5: the threshold of frame counter n for `down` dropped bits."""
+    if down == 0:
+        reached["5 threshold 0: no bits dropped"] += 1
+        return 0
+    if rounding == "truncate":
+        reached["5 threshold truncate"] += 1
+        return 0
+    if rounding == "nearest":
+        reached["5 threshold nearest"] += 1
+        return 1 << (down - 1)
+    if rounding == "low-discrepancy":
+        reached["5 threshold low-discrepancy"] += 1
+        return reversed_bits(n, down)
+    if rounding != "searched":
+        raise Refused(f"unknown rounding {rounding!r}")
+    if down in SEARCHED:
+        reached[f"5 threshold searched, down {down}"] += 1
+        return SEARCHED[down][n % (1 << down)]
+    reached["5 threshold searched, no table"] += 1
+    return reversed_bits(n, down)
+
+
+def step(r, v, a, shifts, thresh, velocity_bits, acceleration_lane):
+    """Section 5, step: (r', v', saturated); saturated: the end at which the velocity was clamped (-1, 1), or 0."""
+    if not acceleration_lane:
+        reached["5 step without acceleration lane"] += 1
+        a = 0
+    elif shifts.acceleration_up:
+        reached["5 step, acceleration_up > 0"] += 1
+    else:
+        reached["5 step, acceleration_up 0"] += 1
+    s = (v << 1) + (a << shifts.acceleration_up)
+    r1 = r + (((s + thresh) >> shifts.down) << shifts.up)
+    if shifts.down:
+        reached["5 step, bits dropped"] += 1
+        if (s + thresh) >> shifts.down != s >> shifts.down:
+            reached[f"5 step, threshold rounds up, down {shifts.down if shifts.down in SEARCHED else 'more'}"] += 1
+    elif shifts.up:
+        reached["5 step, up > 0"] += 1
+    else:
+        reached["5 step, neither down nor up"] += 1
+    if not acceleration_lane:
+        return r1, v, 0
+    w = v + (a << shifts.acceleration_up)
+    v1 = clamp(w, lowest(velocity_bits), highest(velocity_bits))
+    if v1 > w:
+        reached["5 velocity clamped at the lowest"] += 1
+        return r1, v1, -1
+    if v1 < w:
+        reached["5 velocity clamped at the highest"] += 1
+        return r1, v1, 1
+    return r1, v1, 0
+
+
+def cells_moved(r1, position_frac):
+    """Section 5: (cells, offset') of a position r'."""
+    half = (1 << position_frac) >> 1
+    cells = (r1 + half) >> position_frac
+    offset = r1 - (cells << position_frac)
+    if position_frac == 0:
+        reached["5 cells, position_frac 0"] += 1
+    elif offset == -half:
+        reached["5 cells, half goes upwards"] += 1
+    return cells, offset
+
+
+def move_depth(r1, width):
+    """Section 5: (depth', saturated) with depth motion."""
+    if r1 < 0:
+        reached["5 depth clamped at 0"] += 1
+        return 0, 1
+    if r1 > (1 << width) - 1:
+        reached["5 depth clamped at all ones"] += 1
+        return (1 << width) - 1, 1
+    reached["5 depth moves freely"] += 1
+    return r1, 0
+
+
+def step_luminosity(luminosity, rate, colour, luminosity_frac, format_name):
+    """Section 5: (luminosity', colour')."""
+    level = luminosity + rate
+    steps = level >> luminosity_frac
+    reached["5 luminosity steps < 0" if steps < 0 else "5 luminosity steps > 0" if steps else
+            "5 luminosity steps 0"] += 1
+    form = FORMATS[format_name]
+    channels = []
+    for channel, bits in zip(split_channels(colour, format_name), form.channels):
+        if steps and bits > form.narrowest:
+            reached["5 luminosity, channel wider than L"] += 1
+        wanted = channel + (steps << (bits - form.narrowest))
+        channel = clamp(wanted, 0, (1 << bits) - 1)
+        if channel > wanted:
+            reached["5 luminosity, channel clamped at 0"] += 1
+        elif channel < wanted:
+            reached["5 luminosity, channel clamped at all ones"] += 1
+        channels.append(channel)
+    return low_bits(level, luminosity_frac), join_channels(channels, format_name)
+
+
+def step_class(klass):
+    """Section 5: class."""
+    if klass == JUST_UNOBSCURED:
+        reached["5 just unobscured becomes debris"] += 1
+        return DEBRIS
+    reached["5 class stays"] += 1
+    return klass
+
+
+class Engine:
+    """What follows from budget, layout and grid, worked out once."""
+
+    def __init__(self, budget, layout, grid):
+        check_layout(budget, layout)
+        check_grid(grid)
+        self.budget, self.layout, self.grid = budget, layout, grid
+        self.widths = field_widths(budget, layout)
+        self.record = make_record(self.widths)
+        x, y, depth = budget.components
+        self.position_frac = (x.position_frac, y.position_frac, depth_position_frac(budget, layout))
+        self.shifts = tuple(map(component_shifts, (x, y, depth), self.position_frac))
+
+
+def step_galpixel(engine, before, thresholds):
+    """Section 5: (galpixel after the step, cells of x, cells of y, number of fields that saturated)."""
+    after = dict(before)
+    layout = engine.layout
+    saturated = 0
+    moved = [0, 0]
+    if layout.velocity:
+        for number, name in enumerate(COMPONENTS):
+            if name == "depth" and not layout.depth_motion:
+                continue
+            velocity, acceleration = f"velocity_{name}", f"acceleration_{name}"
+            position = "depth" if name == "depth" else f"offset_{name}"
+            r1, after[velocity], clamped = step(before[position], before[velocity], before[acceleration],
+                                                engine.shifts[number], thresholds[number], engine.widths[velocity],
+                                                layout.acceleration)
+            if clamped:
+                reached[f"5 {velocity} saturates at the {'lowest' if clamped < 0 else 'highest'}"] += 1
+                saturated += 1
+            if name == "depth":
+                after["depth"], clamped = move_depth(r1, engine.widths["depth"])
+                saturated += clamped
+            else:
+                moved[number], after[position] = cells_moved(r1, engine.position_frac[number])
+    else:
+        reached["5 without velocity stays in its cell"] += 1
+    if layout.luminosity:
+        after["luminosity"], after["colour"] = step_luminosity(
+            before["luminosity"], before["luminosity_rate"], before["colour"], engine.budget.luminosity_frac,
+            layout.colour)
+    after["class"] = step_class(before["class"])
+    return after, moved[0], moved[1], saturated
+
+
+# --- 6. Grid ---------------------------------------------------------------------------------------------------------
+
+Grid = namedtuple("Grid", "width height left right top bottom")
+
+
+def columns(grid):
+    """Section 6."""
+    return grid.left + grid.width + grid.right
+
+
+def rows(grid):
+    """Section 6."""
+    return grid.top + grid.height + grid.bottom
+
+
+def check_grid(grid):
+    """Section 6: the limits, taken for the sides of the display and for those of the map."""
+    if min(grid) < 0 or min(grid.width, grid.height) < 1 or max(columns(grid), rows(grid)) > 32768 \
+            or columns(grid) * rows(grid) > 1 << 28:
+        reached["6 grid refused"] += 1
+        raise Refused("a side of the grid is not 1 to 32768, or there are more than 2^28 cells")
+    for side in ("left", "right", "top", "bottom"):
+        reached[f"6 wing {side}" if getattr(grid, side) else f"6 no wing {side}"] += 1
+
+
+def in_display(grid, column, row):
+    """Section 6: whether a cell of the map is between the wings."""
+    return 0 <= column - grid.left < grid.width and 0 <= row - grid.top < grid.height
+
+
+# --- 7. Propagation and resolution -----------------------------------------------------------------------------------
+
+NOBODY = (1 << 32) - 1
+
+Arrival = namedtuple("Arrival", "source cell galpixel")     # cell is None if it is lost
+
+
+def target_cell(grid, source, right, down):
+    """Section 7: the cell `right` and `down` of the source, or None if that is outside of the map."""
+    row, column = divmod(source, columns(grid))
+    x, y = column + right, row + down
+    inside_x, inside_y = 0 <= x < columns(grid), 0 <= y < rows(grid)
+    if not (inside_x and inside_y):
+        if not inside_x:
+            reached["7 lost to the left" if x < 0 else "7 lost to the right"] += 1
+        if not inside_y:
+            reached["7 lost at the top" if y < 0 else "7 lost at the bottom"] += 1
+        return None
+    if in_display(grid, column, row) != in_display(grid, x, y):
+        reached["7 out of a wing into the display" if in_display(grid, x, y) else
+                "7 out of the display into a wing"] += 1
+    if right:
+        reached["7 moved left" if right < 0 else "7 moved right"] += 1
+    if down:
+        reached["7 moved up" if down < 0 else "7 moved down"] += 1
+    if not right and not down:
+        reached["7 stays in its cell"] += 1
+    return y * columns(grid) + x
+
+
+def propagate(engine, front, rounding, n):
+    """Section 7: (arrivals, number of fields that saturated)."""
+    # only for components that are carried, so that a rule counts as reached only where it has an effect
+    carried = (engine.layout.velocity, engine.layout.velocity, engine.layout.depth_motion)
+    thresholds = [threshold(rounding, shifts.down, n) if lane else None
+                  for shifts, lane in zip(engine.shifts, carried)]
+    arrivals = []
+    saturated = 0
+    for source, galpixel in enumerate(front):
+        if galpixel["class"] == EMPTY:
+            reached["7 empty sends nothing"] += 1
+            continue
+        after, right, down, fields = step_galpixel(engine, galpixel, thresholds)
+        saturated += fields
+        arrivals.append(Arrival(source, target_cell(engine.grid, source, right, down), after))
+    return arrivals, saturated
+
+
+def precedence(arrival):
+    """Section 7: the order of arrivals at one cell."""
+    return arrival.galpixel["class"], arrival.galpixel["depth"], arrival.source
+
+
+def resolve(arrivals, cells):
+    """Section 7: (back map, winners, counts of moved, lost, collided)."""
+    best = [None] * cells
+    lost = collided = 0
+    for arrival in arrivals:
+        if arrival.cell is None:
+            lost += 1
+            continue
+        other = best[arrival.cell]
+        if other is None:
+            best[arrival.cell] = arrival
+            continue
+        collided += 1
+        mine, theirs = precedence(arrival), precedence(other)
+        level = "class" if mine[0] != theirs[0] else "depth" if mine[1] != theirs[1] else "source"
+        reached[f"7 resolved by {level}"] += 1
+        if mine < theirs:
+            best[arrival.cell] = arrival
+    back, winners = [], []
+    for arrival in best:
+        if arrival is None:
+            reached["7 hole"] += 1
+            back.append(empty_galpixel())
+            winners.append(NOBODY)
+        else:
+            back.append(arrival.galpixel)
+            winners.append(arrival.source)
+    return back, winners, {"moved": len(arrivals), "lost": lost, "collided": collided}
+
+
+# --- 8. Edge map -----------------------------------------------------------------------------------------------------
+
+def neighbours(grid, cell):
+    """Sections 8 and 10: the cells to the left, right, above and below; None outside of the map."""
+    row, column = divmod(cell, columns(grid))
+    return (cell - 1 if column > 0 else None,
+            cell + 1 if column + 1 < columns(grid) else None,
+            cell - columns(grid) if row > 0 else None,
+            cell + columns(grid) if row + 1 < rows(grid) else None)
+
+
+def is_edge(front, grid, cell, edge_threshold):
+    """Section 8 (17): the bit of one cell."""
+    reasons = []
+    if front[cell]["class"] != GALPIXEL:
+        reasons.append("own class")
+    depth_sum = 0
+    for side, neighbour in zip(("left", "right", "above", "below"), neighbours(grid, cell)):
+        if neighbour is None:
+            reached[f"8 nothing {side}: the cell itself"] += 1
+            neighbour = cell
+        elif front[neighbour]["class"] != GALPIXEL:
+            reasons.append(f"class {side}")
+        depth_sum += front[neighbour]["depth"]
+    difference = depth_sum - 4 * front[cell]["depth"]
+    if abs(difference) > edge_threshold:
+        reasons.append("nearer than around it" if difference > 0 else "farther than around it")
+    elif difference and abs(difference) == edge_threshold:
+        reached["8 difference equal to the threshold"] += 1
+    if not reasons:
+        reached["8 no edge"] += 1
+    elif len(reasons) == 1:
+        reached[f"8 edge only by {reasons[0]}"] += 1
+    else:
+        reached["8 edge by several reasons"] += 1
+    return bool(reasons)
+
+
+def edge_map(front, grid, edge_threshold):
+    """Section 8: one truth value a cell."""
+    if edge_threshold > (1 << 31) - 1:
+        reached["8 threshold above 2^31 - 1"] += 1
+        edge_threshold = (1 << 31) - 1
+    return [is_edge(front, grid, cell, edge_threshold) for cell in range(len(front))]
+
+
+def edge_words(edges):
+    """Section 8: cell c is bit c mod 32 of word c / 32; bits beyond the last cell are 0."""
+    words = [0] * (-(-len(edges) // 32))
+    for cell, edge in enumerate(edges):
+        if edge:
+            words[cell // 32] |= 1 << cell % 32
+    if len(edges) % 32:
+        reached["8 last word not full"] += 1
+    return words
+
+
+def edge_bits(words, cells):
+    """Section 8: the inverse of `edge_words`."""
+    return [bool(words[cell // 32] >> cell % 32 & 1) for cell in range(cells)]
+
+
+def default_edge_threshold(depth_bits, only_faster=False):
+    """Section 8: the default threshold for a depth field of `depth_bits` bits."""
+    exponent = depth_bits - (7 if only_faster else 6)
+    reached["8 default threshold a power of 2" if exponent >= 0 else "8 default threshold 1"] += 1
+    return 1 << exponent if exponent >= 0 else 1
+
+
+# --- 9. Colour -------------------------------------------------------------------------------------------------------
+
+Format = namedtuple("Format", "bits channels narrowest")
+
+FORMATS = {
+    "rgb888": Format(24, (8, 8, 8), 8),
+    "rgb565": Format(16, (5, 6, 5), 5),
+    "gray8": Format(8, (8,), 8),
+    "gray4": Format(4, (4,), 4),
+}
+
+
+def split_channels(colour, format_name):
+    """Section 9: the channels, from the most significant bit."""
+    channels = []
+    shift = FORMATS[format_name].bits
+    for bits in FORMATS[format_name].channels:
+        shift -= bits
+        channels.append(low_bits(colour >> shift, bits))
+    return channels
+
+
+def join_channels(channels, format_name):
+    """Section 9: the inverse of `split_channels`."""
+    colour = 0
+    for channel, bits in zip(channels, FORMATS[format_name].channels):
+        colour = colour << bits | channel
+    return colour
+
+
+def colour_from_rgb(red, green, blue, format_name):
+    """Section 9: from 8-bit red, green, blue."""
+    reached[f"9 from 8-bit to {format_name}"] += 1
+    gray = (red + 2 * green + blue) >> 2
+    channels = {"rgb888": (red, green, blue), "rgb565": (red >> 3, green >> 2, blue >> 3),
+                "gray8": (gray,), "gray4": (gray >> 4,)}[format_name]
+    return join_channels(channels, format_name)
+
+
+def shown_rgb(colour, format_name):
+    """Section 9: as 8-bit red, green, blue."""
+    reached[f"9 shown from {format_name}"] += 1
+    shown = []
+    for channel, bits in zip(split_channels(colour, format_name), FORMATS[format_name].channels):
+        # a channel of 8 bits stays; one of 4, 5 or 6 bits is continued by its own high bits
+        shown.append(channel if bits == 8 else channel << (8 - bits) | channel >> (2 * bits - 8))
+    return tuple(shown * 3 if len(shown) == 1 else shown)
+
+
+# --- 10. Holes -------------------------------------------------------------------------------------------------------
+
+RUNGS = ("none", "hold", "debris", "bullet", "galdebris", "extend")
+FILLED = 1 << 31
+HELD_CLASS = {"bullet": JUST_UNOBSCURED, "debris": DEBRIS}
+MEAN_FIELDS = ("depth", "offset_x", "offset_y", "velocity_x", "acceleration_x", "velocity_y", "acceleration_y",
+               "velocity_depth", "acceleration_depth", "luminosity_rate")
+
+
+def tells_surfaces_apart(rung):
+    """Section 10: the last three rungs."""
+    return rung in ("bullet", "galdebris", "extend")
+
+
+def rounds_of(rung, reach):
+    """Section 10: K."""
+    if not tells_surfaces_apart(rung):
+        reached["10 K = 1 for the rung"] += 1
+        return 1
+    reached["10 reach below 1" if reach < 1 else "10 reach above 16" if reach > 16 else "10 reach as it is"] += 1
+    return clamp(reach, 1, 16)
+
+
+def is_inside(back, winners, edges, place, k):
+    """Section 10: "inside a surface" in round k; a place outside of the map is None."""
+    if place is None:
+        reached["10 not inside: outside of the map"] += 1
+        return False
+    winner = winners[place]
+    if back[place]["class"] != GALPIXEL:
+        reached["10 not inside: class"] += 1
+        return False
+    if winner < FILLED:
+        reached["10 not inside: edge" if edges[winner] else "10 inside: no edge"] += 1
+        return not edges[winner]
+    if winner < FILLED + k:
+        reached["10 inside: filled in an earlier round"] += 1
+        return True
+    # a hole has class 3 until it is filled, so that no vector can lead here
+    return False
+
+
+def is_vacant(winners, place, k):
+    """Section 10: "vacant" in round k."""
+    if place is None:
+        reached["10 vacant: outside of the map"] += 1
+        return True
+    if winners[place] >= FILLED + k:
+        reached["10 vacant: hole"] += 1
+        return True
+    reached["10 not vacant"] += 1
+    return False
+
+
+def corners(grid, cell):
+    """Section 10: the cells at the upper left, lower right, upper right, lower left; None outside of the map."""
+    row, column = divmod(cell, columns(grid))
+
+    def at(right, down):
+        if 0 <= column + right < columns(grid) and 0 <= row + down < rows(grid):
+            return cell + down * columns(grid) + right
+        return None
+
+    return at(-1, -1), at(1, 1), at(1, -1), at(-1, 1)
+
+
+def mean_number(numbers):
+    """Section 10: the mean of two or of four numbers, halves upwards."""
+    if len(numbers) == 2:
+        if sum(numbers) % 2:
+            reached["10 mean of two, odd sum" if sum(numbers) > 0 else "10 mean of two, odd negative sum"] += 1
+        return (sum(numbers) + 1) >> 1
+    if sum(numbers) % 4 == 2:
+        reached["10 mean of four, half"] += 1
+    elif sum(numbers) % 4:
+        reached["10 mean of four, a quarter up or down"] += 1
+    return (sum(numbers) + 2) >> 2
+
+
+def mean(galpixels, format_name):
+    """Section 10: field by field; class, tag and luminosity are those of the first."""
+    result = dict(galpixels[0])
+    for name in MEAN_FIELDS:
+        result[name] = mean_number([galpixel[name] for galpixel in galpixels])
+    channels = zip(*(split_channels(galpixel["colour"], format_name) for galpixel in galpixels))
+    result["colour"] = join_channels([mean_number(values) for values in channels], format_name)
+    return result
+
+
+def bullet_hole(engine, back, winners, edges, cell, k):
+    """Section 10: the galpixel of a bullet hole, or None if the cell is none."""
+    places = neighbours(engine.grid, cell)
+    inside = [back[place] if is_inside(back, winners, edges, place, k) else None for place in places]
+    where = "sides"
+    if inside == [None] * 4:
+        if not all([is_vacant(winners, place, k) for place in places]):
+            reached["10 sides, case 5: none, some not vacant"] += 1
+            return None
+        where = "corners"
+        inside = [back[place] if is_inside(back, winners, edges, place, k) else None
+                  for place in corners(engine.grid, cell)]
+    letters = "abcd"
+    there = "".join(letter for letter, galpixel in zip(letters, inside) if galpixel is not None)
+    a, b, c, d = inside
+    form = engine.layout.colour
+    if there == "abcd":
+        reached[f"10 {where}, case 1: all four"] += 1
+        return mean([a, b, c, d], form)
+    if a is not None and b is not None:
+        reached[f"10 {where}, case 2: {there}"] += 1
+        return mean([a, b], form)
+    if c is not None and d is not None:
+        reached[f"10 {where}, case 2: {there}"] += 1
+        return mean([c, d], form)
+    if len(there) == 2:
+        reached[f"10 {where}, case 3: {there}"] += 1
+        return mean([a if a is not None else b, c if c is not None else d], form)
+    if len(there) == 1:
+        reached[f"10 {where}, case 4: {there}"] += 1
+        return inside[letters.index(there)]
+    reached[f"10 {where}, case 5: none"] += 1
+    return None
+
+
+def nearest_not_empty(back, grid, cell, direction):
+    """Section 10, extend: the nearest cell to the left (-1) or right (1) in the same row that is not empty, or None."""
+    row, column = divmod(cell, columns(grid))
+    column += direction
+    while 0 <= column < columns(grid):
+        if back[row * columns(grid) + column]["class"] != EMPTY:
+            return back[row * columns(grid) + column]
+        column += direction
+    return None
+
+
+def extended(back, grid, cell, before):
+    """Section 10, extend, known."""
+    left = nearest_not_empty(back, grid, cell, -1)
+    right = nearest_not_empty(back, grid, cell, 1)
+    if left is not None and right is not None:
+        if left["depth"] == right["depth"]:
+            reached["10 extend: equal depths, left"] += 1
+            chosen = left
+        elif left["depth"] > right["depth"]:
+            reached["10 extend: left is farther"] += 1
+            chosen = left
+        else:
+            reached["10 extend: right is farther"] += 1
+            chosen = right
+    elif left is not None:
+        reached["10 extend: only left"] += 1
+        chosen = left
+    elif right is not None:
+        reached["10 extend: only right"] += 1
+        chosen = right
+    else:
+        reached["10 extend: row empty, before"] += 1
+        chosen = before
+    return {**chosen, "class": JUST_UNOBSCURED}
+
+
+def last_resort(engine, rung, back, cell, before):
+    """Section 10, last round: (galpixel, name of its count) of a hole that is no bullet hole."""
+    result = empty_galpixel()
+    if rung == "none":
+        reached["10 rung none"] += 1
+        return result, "empty"
+    known = before["class"] != EMPTY
+    if rung == "hold" or not known:
+        reached[f"10 rung {rung}, {'known' if known else 'not known'}"
+                + (f", class {before['class']}" if known else "")] += 1
+        result["colour"] = before["colour"]
+        return result, "empty"
+    reached[f"10 rung {rung}, known, class {before['class']}"] += 1
+    if rung == "extend":
+        return extended(back, engine.grid, cell, before), "galdebris"
+    if rung == "galdebris":
+        return {**before, "class": JUST_UNOBSCURED}, "galdebris"
+    result["colour"] = before["colour"]
+    result["class"] = HELD_CLASS[rung]
+    result["depth"] = (1 << engine.widths["depth"]) - 1
+    return result, "debris"
+
+
+def fill(engine, rung, reach, edges, front, resolved, resolved_winners):
+    """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell."""
+    back, winners = list(resolved), list(resolved_winners)
+    holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY]
+    counts = {"holes": len(holes), "bullets": 0, "debris": 0, "galdebris": 0, "empty": 0}
+    rounds = rounds_of(rung, reach)
+    for k in range(rounds):
+        decisions = []
+        for cell in holes:
+            galpixel = None
+            if tells_surfaces_apart(rung):
+                galpixel = bullet_hole(engine, back, winners, edges, cell, k)
+            if galpixel is not None:
+                reached["10 bullet hole in round 0" if k == 0 else "10 bullet hole in a later round"] += 1
+                if k == rounds - 1:
+                    reached["10 bullet hole in the last round"] += 1
+                decisions.append((cell, galpixel, FILLED + k))
+                counts["bullets"] += 1
+            elif k == rounds - 1:
+                galpixel, name = last_resort(engine, rung, back, cell, front[cell])
+                decisions.append((cell, galpixel, NOBODY))
+                counts[name] += 1
+            else:
+                reached["10 hole left for the next round"] += 1
+        for cell, galpixel, winner in decisions:
+            back[cell], winners[cell] = galpixel, winner
+        decided = {cell for cell, _, _ in decisions}
+        holes = [cell for cell in holes if cell not in decided]
+    return back, winners, counts
+
+
+# --- 11. A frame -----------------------------------------------------------------------------------------------------
+
+COUNTS = ("moved", "lost", "collided", "saturated", "edges", "holes", "bullets", "debris", "galdebris", "empty")
+
+
+def frame(engine, front, n, rounding, rung, reach, edge_threshold):
+    """Section 11: (next front map, next frame counter, counts)."""
+    counts = dict.fromkeys(COUNTS, 0)
+    edges = None
+    if tells_surfaces_apart(rung):
+        reached["11 edge map made"] += 1
+        edges = edge_map(front, engine.grid, edge_threshold)
+        counts["edges"] = sum(edges)
+    else:
+        reached["11 no edge map"] += 1
+    arrivals, counts["saturated"] = propagate(engine, front, rounding, n)
+    back, winners, resolved_counts = resolve(arrivals, len(front))
+    counts.update(resolved_counts)
+    back, winners, fill_counts = fill(engine, rung, reach, edges, front, back, winners)
+    counts.update(fill_counts)
+    if n == (1 << 32) - 1:
+        reached["11 frame counter wraps"] += 1
+    return back, (n + 1) % (1 << 32), counts
+
+
+def frame_hash(words):
+    """vectors.md: SHA-256 of the words of a map, each as 4 bytes, the least significant first."""
+    return hashlib.sha256(struct.pack(f"<{len(words)}I", *words)).hexdigest()
+
+
+# --- 12. Loading an update -------------------------------------------------------------------------------------------
+
+def load_value(x, frac, low, high):
+    """Section 12: (field, whether it was clamped) of an exact value x (int or Fraction)."""
+    scaled = Fraction(x) * Fraction(2) ** frac + Fraction(1, 2)
+    wanted = scaled.numerator // scaled.denominator
+    field = clamp(wanted, low, high)
+    reached["12 loaded as it is" if field == wanted else
+            "12 clamped at the lowest" if field > wanted else "12 clamped at the highest"] += 1
+    return field, field != wanted
+
+
+def load_fraction_bits(engine, name):
+    """Section 12: the fraction bits of a field."""
+    budget, layout = engine.budget, engine.layout
+    if name == "depth":
+        return engine.widths["depth"]
+    if name == "luminosity_rate":
+        return budget.luminosity_frac - (8 - FORMATS[layout.colour].narrowest)
+    lane, component_name = name.split("_")
+    number = COMPONENTS.index(component_name)
+    component = budget.components[number]
+    if lane == "offset":
+        return component.position_frac
+    frac = component.velocity_frac if lane == "velocity" else component.acceleration_frac
+    if component_name == "depth":
+        frac += engine.widths["depth"] - engine.position_frac[2]
+    return frac
+
+
+def load_update(engine, values, red, green, blue, tag):
+    """Section 12: (galpixel of class 0, number of values counted as clamped). `values`: exact values by field name."""
+    galpixel = dict.fromkeys(FIELDS, 0)
+    counted = 0
+    for name, x in values.items():
+        bits = engine.widths[name]
+        if bits == 0:
+            reached["12 absent field forgets"] += 1
+            continue
+        low, high = (lowest(bits), highest(bits)) if name in SIGNED else (0, (1 << bits) - 1)
+        galpixel[name], clamped = load_value(x, load_fraction_bits(engine, name), low, high)
+        if clamped and name not in ("depth", "offset_x", "offset_y"):
+            reached["12 clamped and counted"] += 1
+            counted += 1
+    galpixel["colour"] = colour_from_rgb(red, green, blue, engine.layout.colour)
+    galpixel["tag"] = low_bits(tag, engine.widths["tag"])
+    return galpixel, counted
+
+
+# --- The rules -------------------------------------------------------------------------------------------------------
+
+def rule_names():
+    """All names that the kinds of vector files can reach."""
+    names = []
+    for lane in ("depth", "velocity", "acceleration", "depth_motion", "luminosity", "tag"):
+        names += [f"3 {lane} lane", f"3 no {lane} lane"]
+    names += ["4 first fit", "4 end to end", "4 field spills"]
+    names += ["5 threshold 0: no bits dropped", "5 threshold truncate", "5 threshold nearest",
+              "5 threshold low-discrepancy", "5 threshold searched, no table"]
+    names += [f"5 threshold searched, down {down}" for down in SEARCHED]
+    names += ["5 step without acceleration lane", "5 step, acceleration_up > 0", "5 step, acceleration_up 0",
+              "5 step, bits dropped", "5 step, up > 0", "5 step, neither down nor up",
+              "5 velocity clamped at the lowest", "5 velocity clamped at the highest"]
+    names += [f"5 step, threshold rounds up, down {down}" for down in (*SEARCHED, "more")]
+    for name in COMPONENTS:
+        names += [f"5 velocity_{name} saturates at the lowest", f"5 velocity_{name} saturates at the highest"]
+    names += ["5 cells, position_frac 0", "5 cells, half goes upwards", "5 depth moves freely",
+              "5 depth clamped at 0", "5 depth clamped at all ones", "5 luminosity steps < 0",
+              "5 luminosity steps 0", "5 luminosity steps > 0", "5 luminosity, channel wider than L",
+              "5 luminosity, channel clamped at 0", "5 luminosity, channel clamped at all ones",
+              "5 just unobscured becomes debris", "5 class stays", "5 without velocity stays in its cell"]
+    for side in ("left", "right", "top", "bottom"):
+        names += [f"6 wing {side}", f"6 no wing {side}"]
+    names += ["7 lost to the left", "7 lost to the right", "7 lost at the top", "7 lost at the bottom",
+              "7 out of a wing into the display", "7 out of the display into a wing", "7 moved left",
+              "7 moved right", "7 moved up", "7 moved down", "7 stays in its cell", "7 empty sends nothing",
+              "7 resolved by class", "7 resolved by depth", "7 resolved by source", "7 hole"]
+    names += [f"8 nothing {side}: the cell itself" for side in ("left", "right", "above", "below")]
+    names += [f"8 edge only by {reason}" for reason in
+              ("own class", "class left", "class right", "class above", "class below", "nearer than around it",
+               "farther than around it")]
+    names += ["8 edge by several reasons", "8 no edge", "8 difference equal to the threshold",
+              "8 threshold above 2^31 - 1", "8 last word not full"]
+    names += [f"9 format {name}" for name in FORMATS]
+    names += ["10 K = 1 for the rung", "10 reach below 1", "10 reach above 16", "10 reach as it is",
+              "10 not inside: outside of the map", "10 not inside: class", "10 not inside: edge",
+              "10 inside: no edge", "10 inside: filled in an earlier round", "10 vacant: outside of the map",
+              "10 vacant: hole", "10 not vacant"]
+    for where in ("sides", "corners"):
+        names.append(f"10 {where}, case 1: all four")
+        names += [f"10 {where}, case 2: {there}" for there in ("ab", "abc", "abd", "cd", "acd", "bcd")]
+        names += [f"10 {where}, case 3: {there}" for there in ("ac", "ad", "bc", "bd")]
+        names += [f"10 {where}, case 4: {there}" for there in "abcd"]
+    names += ["10 sides, case 5: none, some not vacant", "10 corners, case 5: none"]
+    names += ["10 mean of two, odd sum", "10 mean of two, odd negative sum", "10 mean of four, half",
+              "10 mean of four, a quarter up or down"]
+    names += ["10 bullet hole in round 0", "10 bullet hole in a later round", "10 bullet hole in the last round",
+              "10 hole left for the next round"]
+    names.append("10 rung none")
+    for rung in RUNGS[1:]:
+        names += [f"10 rung {rung}, known, class {klass}" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
+        names.append(f"10 rung {rung}, not known")
+    names += ["10 extend: left is farther", "10 extend: right is farther", "10 extend: equal depths, left",
+              "10 extend: only left", "10 extend: only right", "10 extend: row empty, before"]
+    names += ["11 edge map made", "11 no edge map", "11 frame counter wraps"]
+    return names
+
+
+RULES = rule_names()
+
+RULES_BEYOND_VECTORS = [
+    "2 design numbers refused", "2 derived with acceleration", "2 derived without acceleration",
+    "2 derived width below 1 refused", "2 luminosity_int raised to 1", "2 budget or layout refused", "6 grid refused",
+    "8 default threshold a power of 2", "8 default threshold 1",
+    *(f"9 from 8-bit to {name}" for name in FORMATS), *(f"9 shown from {name}" for name in FORMATS),
+    "12 loaded as it is", "12 clamped at the lowest", "12 clamped at the highest", "12 clamped and counted",
+    "12 absent field forgets",
+]
