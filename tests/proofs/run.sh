@@ -14,14 +14,16 @@ vectors=target/proofs/vectors
 
 solver() {
     command -v python3 >/dev/null || { echo "python3 is missing: install it to run the solver" >&2; exit 3; }
-    if ! "$venv/bin/python" -c 'import bitwuzla' 2>/dev/null; then
+    if ! "$venv/bin/python" -c 'import bitwuzla, jsonschema' 2>/dev/null; then
         echo "installing the solver into $venv"
         { python3 -m venv "$venv" && timeout 300 "$venv/bin/pip" install --quiet -r tests/proofs/requirements.txt; } >&2 ||
             { echo "the solver could not be installed" >&2; exit 3; }
     fi
     # The same flags as the tests, so that nothing is built twice.
     cargo run --locked --quiet --release -- vectors --out "$vectors" >/dev/null
-    PYTHONDONTWRITEBYTECODE=1 "$venv/bin/python" tests/proofs/prove.py "$@" "$vectors"
+    export PYTHONDONTWRITEBYTECODE=1
+    "$venv/bin/python" tests/proofs/schema.py "$vectors"
+    "$venv/bin/python" tests/proofs/prove.py "$@" "$vectors"
 }
 
 case "${1:-}" in

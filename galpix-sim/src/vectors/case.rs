@@ -368,5 +368,6 @@ pub fn schema() -> serde_json::Value {
         Manifest(Manifest),
         Case(Case),
     }
-    schemars::schema_for!(File).into()
+    let settings = schemars::generate::SchemaSettings::draft2020_12().for_serialize();
+    settings.into_generator().into_root_schema_for::<File>().into()
 }
