@@ -5,6 +5,7 @@ mod choices;
 mod demo;
 mod run;
 mod scenes;
+mod stability;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -59,6 +60,8 @@ enum Command {
     Run(run::Run),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
+    /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
+    Stability(stability::Stability),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
 }
@@ -74,6 +77,7 @@ pub fn main() -> ExitCode {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
         Command::Budget(budget) => budget.run(),
+        Command::Stability(stability) => stability.run(),
         Command::Scenes(scenes) => scenes.run(),
     };
     match result {
