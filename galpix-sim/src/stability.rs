@@ -16,6 +16,8 @@ pub mod path;
 pub mod picture;
 mod setting;
 mod summary;
+#[cfg(test)]
+mod tests;
 pub mod verdict;
 
 use galpix_core::budget::Demand;
@@ -113,9 +115,11 @@ pub fn run(request: &Request, done: impl Fn(&'static str) + Sync) -> Result<Repo
     let budget = BudgetReport::of::<galpix_core::layout::Full>(request.demand, setting.bits)?;
     let chosen: Vec<&Case> = request.cases().collect();
     let longest = chosen.iter().flat_map(|case| (case.paths)(&setting)).map(|path| path.every.unwrap_or(path.frames)).max();
-    let laws = |rounding: Rounding| Laws {
-        rounding,
-        components: [0, 1, 2].map(|component| Law::of(&setting, component, rounding, longest.unwrap_or(0))),
+    let laws = |rounding: Rounding| {
+        let law = |component: usize| Law::of(&setting, component, rounding, longest.unwrap_or(0));
+        let x = law(0);
+        let y = if setting.record.scales[1] == setting.record.scales[0] { x.clone() } else { law(1) };
+        Laws { rounding, components: [x, y, law(2)] }
     };
     let laws: Vec<Laws> = request.rounding.map_or(Rounding::ALL.to_vec(), |one| vec![one]).into_iter().map(laws).collect();
     let cases = chosen

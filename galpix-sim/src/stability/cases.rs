@@ -30,13 +30,14 @@ const fn pictures(name: &'static str, stress: &'static str, pictures: fn(&Settin
 }
 
 /// All of them, in the order in which they are told.
-pub const ALL: [Case; 21] = [
+pub const ALL: [Case; 22] = [
     paths("turn-round", "across the whole display and back within tau_recog: the fastest that can be seen", motion::turn_round),
     paths("rotation", "a full turn in 1 to 2 tau_recog: jerk that second order cannot know", motion::rotation),
     paths("oscillators", "stiff springs, one period from 4 tau_prop down to 3 frames", motion::oscillators),
     paths("near-plane", "towards the near plane: 1/z, in the picture and in depth", motion::near_plane),
     paths("bounce", "a velocity that jumps between two updates", motion::bounce),
     paths("sub-lsb", "512 frames without an update, slower than a last bit of position or velocity", long::sub_lsb),
+    paths("in-step", "512 frames without an update, an acceleration that keeps step with the rounding", long::in_step),
     paths("re-anchored", "an update every tau_prop frames, without end: no error may grow from one to the next", long::re_anchored),
     paths("extremes-plane", "position, velocity and acceleration at both ends of their fields and at 0, all combinations", ends::plane),
     paths("extremes-depth", "the same in depth, whose position ends too", ends::depth),

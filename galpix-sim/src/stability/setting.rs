@@ -7,7 +7,7 @@ use galpix_core::layout::Full;
 use galpix_core::record::{Record, Scale};
 use galpix_core::rounding::Rounding;
 
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, FrameBound};
 
 /// Columns that a map can have.
 const MOST_COLUMNS: u64 = 1 << 15;
@@ -100,7 +100,12 @@ pub struct Law {
     pub certified: u32,
     /// A last bit of the position, in pixels.
     pub last_bit_px: f64,
+    /// Whether a table is aligned with the updates, or has the same bounds from any frame of the counter on.
+    searched: bool,
+    /// For the frames that are certified.
     certificate: Certificate,
+    /// The same enumeration for all frames.
+    beyond: Certificate,
 }
 
 impl Law {
@@ -108,17 +113,20 @@ impl Law {
     #[must_use]
     pub fn of(setting: &Setting, component: usize, rounding: Rounding, frames: u32) -> Self {
         let scale = &setting.record.scales[component];
+        let of = |frames: u32| Certificate::of(scale, true, rounding, frames);
         Self {
             certified: setting.demand.prop,
             last_bit_px: 0.5f64.powi(scale.position_frac as i32),
-            certificate: Certificate::of(scale, true, rounding, frames.max(setting.demand.prop)),
+            searched: rounding == Rounding::Searched,
+            certificate: of(setting.demand.prop),
+            beyond: of(frames.max(setting.demand.prop)),
         }
     }
 
     /// Quantisation and drift after `frame` frames, in pixels. `aligned`: the update entered at frame 0 of the counter.
     #[must_use]
     pub fn bound_px(&self, frame: u32, aligned: bool) -> f64 {
-        match frame.checked_sub(1).and_then(|index| self.certificate.frames.get(index as usize)) {
+        match self.after(frame) {
             Some(bound) => bound.quantisation_px + self.drift_px(frame, aligned),
             None if frame == 0 => self.last_bit_px / 2.0,
             None => f64::INFINITY,
@@ -128,12 +136,17 @@ impl Law {
     /// Drift alone after `frame` frames, in pixels.
     #[must_use]
     pub fn drift_px(&self, frame: u32, aligned: bool) -> f64 {
-        match frame.checked_sub(1).and_then(|index| self.certificate.frames.get(index as usize)) {
-            // Of a searched table that an update does not enter at its first entry only the largest drift is known.
-            Some(_) if !aligned => self.certificate.drift_any_phase_px,
+        // Of a searched table that an update does not enter at its first entry only the largest drift is known.
+        let any = if frame <= self.certified { &self.certificate } else { &self.beyond };
+        match self.after(frame) {
+            Some(_) if self.searched && !aligned => any.drift_any_phase_px,
             Some(bound) => bound.drift_px,
             None if frame == 0 => 0.0,
             None => f64::INFINITY,
         }
+    }
+
+    fn after(&self, frame: u32) -> Option<&FrameBound> {
+        self.beyond.frames.get(frame.checked_sub(1)? as usize)
     }
 }

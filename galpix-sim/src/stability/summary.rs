@@ -76,9 +76,9 @@ pub struct Shares {
     pub total_px: f64,
     /// Quantisation and drift together, where no field was clamped.
     pub arithmetic_px: f64,
-    /// What the law says of these two in the frame where it is nearest to being reached.
+    /// What the law says of these two in the last frame before an update.
     pub bound_px: f64,
-    /// The part of that bound that is reached.
+    /// The largest part of its bound that is reached in any frame after an update.
     pub of_bound: f64,
     /// The same scheme in `f32`, from the exact path.
     pub f32_px: f64,
@@ -269,14 +269,13 @@ impl Shares {
             total_px: px(row.place - row.shown),
             arithmetic_px,
             bound_px,
-            of_bound: arithmetic_px / bound_px,
+            of_bound: if row.since > 0 { arithmetic_px / bound_px } else { 0.0 },
             f32_px: row.f32_px.abs(),
             f64_px: row.f64_px.abs(),
         }
     }
 
     fn with(self, other: Self) -> Self {
-        let bound_px = if other.of_bound > self.of_bound { other.bound_px } else { self.bound_px };
         Self {
             taylor_px: self.taylor_px.max(other.taylor_px),
             quantisation_px: self.quantisation_px.max(other.quantisation_px),
@@ -285,7 +284,7 @@ impl Shares {
             saturation_px: self.saturation_px.max(other.saturation_px),
             total_px: self.total_px.max(other.total_px),
             arithmetic_px: self.arithmetic_px.max(other.arithmetic_px),
-            bound_px,
+            bound_px: self.bound_px.max(other.bound_px),
             of_bound: self.of_bound.max(other.of_bound),
             f32_px: self.f32_px.max(other.f32_px),
             f64_px: self.f64_px.max(other.f64_px),

@@ -32,13 +32,14 @@ fn combinations(setting: &Setting, component: usize, positions: [i64; 3]) -> Vec
     paths
 }
 
-/// x and y: the position's field is the place within the cell.
+/// x and y: the position's field is the place within the cell. In y the ends alone, for the same code.
 pub fn plane(setting: &Setting) -> Vec<Path> {
     let of = |component: usize| {
         let half = 1i64 << setting.record.scales[component].position_frac >> 1;
         combinations(setting, component, [-half, 0, half - 1])
     };
-    [of(0), of(1)].into_iter().flatten().collect()
+    let ends = of(1).into_iter().filter(|path| !path.name.contains(['0']));
+    of(0).into_iter().chain(ends).collect()
 }
 
 /// Depth: the position's field is the whole range.

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use fixed::types::I32F32;
+
 use super::super::exact::Px;
 use super::super::path::{Motion, Path};
 use super::super::setting::Setting;
@@ -13,7 +15,9 @@ const LONG: u32 = 512;
 /// Parts of the last bits of a position, a velocity and an acceleration.
 fn parts(setting: &Setting, [r, v, a]: [f64; 3]) -> Motion {
     let widths = setting.bits.x;
-    let part = |value: f64, frac: u32| Px::near(value * 0.5f64.powi(frac as i32));
+    // To the last bit of what an update hands over, so that nothing is left for the Taylor share.
+    let number = I32F32::saturating_from_num::<f64>;
+    let part = |value: f64, frac: u32| Px::given(number(value * 0.5f64.powi(frac as i32)), 0);
     Motion::SecondOrder([
         part(r, widths.position_frac),
         part(v, widths.velocity_frac),
@@ -38,6 +42,19 @@ pub fn sub_lsb(setting: &Setting) -> Vec<Path> {
     ]
     .map(path)
     .into()
+}
+
+/// Accelerations of a quarter, an eighth and three quarters of the period of the thresholds: after each period the low bits
+/// meet the same thresholds again.
+pub fn in_step(setting: &Setting) -> Vec<Path> {
+    let frames = LONG.max(2 * setting.demand.prop);
+    let scale = &setting.record.scales[0];
+    let period = f64::from(1u32 << scale.down.min(20));
+    let path = |(v, a): (f64, f64)| {
+        let [v, a] = [v * period, a * period].map(|part| part.max(1.0).round());
+        Path::new(format!("v of {v} and a of {a} last bits"), 0, parts(setting, [0.0, v, a]), frames)
+    };
+    [(1.0 / 8.0, 1.0 / 4.0), (3.0 / 8.0, 1.0 / 4.0), (0.0, 1.0 / 8.0), (1.0 / 8.0, 3.0 / 4.0)].map(path).into()
 }
 
 /// An update every tau_prop frames, 32 times; the exact position of each goes into the next.
