@@ -29,7 +29,7 @@ pub use cases::{ALL, Case};
 pub use exact::Px;
 pub use page::html;
 pub use setting::{Law, Ranges, Setting, SettingError};
-pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow};
+pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
 
 use crate::engine::EngineError;
 use crate::experiment::BudgetReport;
@@ -114,14 +114,16 @@ pub fn run(request: &Request, done: impl Fn(&'static str) + Sync) -> Result<Repo
     let setting = Setting::new(request.demand)?;
     let budget = BudgetReport::of::<galpix_core::layout::Full>(request.demand, setting.bits)?;
     let chosen: Vec<&Case> = request.cases().collect();
-    let longest = chosen.iter().flat_map(|case| (case.paths)(&setting)).map(|path| path.every.unwrap_or(path.frames)).max();
+    let longest =
+        chosen.iter().flat_map(|case| (case.paths)(&setting)).map(|path| path.every.unwrap_or(path.frames)).max();
     let laws = |rounding: Rounding| {
         let law = |component: usize| Law::of(&setting, component, rounding, longest.unwrap_or(0));
         let x = law(0);
         let y = if setting.record.scales[1] == setting.record.scales[0] { x.clone() } else { law(1) };
         Laws { rounding, components: [x, y, law(2)] }
     };
-    let laws: Vec<Laws> = request.rounding.map_or(Rounding::ALL.to_vec(), |one| vec![one]).into_iter().map(laws).collect();
+    let laws: Vec<Laws> =
+        request.rounding.map_or(Rounding::ALL.to_vec(), |one| vec![one]).into_iter().map(laws).collect();
     let cases = chosen
         .par_iter()
         .map(|case| {
@@ -147,9 +149,9 @@ fn run_case(case: &Case, setting: &Setting, laws: &Laws) -> Result<RoundingRepor
         for rung in Rung::ALL {
             let [x, y, _] = &laws.components;
             let mut outcome = picture::run(&picture, setting, [x, y], laws.rounding, rung)?;
-            let twin = pictures.iter().find(|other| {
-                picture.same_as.as_ref() == Some(&other.picture) && other.rung == rung.name()
-            });
+            let twin = pictures
+                .iter()
+                .find(|other| picture.same_as.as_ref() == Some(&other.picture) && other.rung == rung.name());
             if twin.is_some_and(|twin| twin.bits != outcome.bits) {
                 outcome.findings.push(format!("other bits than `{}`", picture.same_as.as_deref().unwrap_or_default()));
             }

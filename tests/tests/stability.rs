@@ -19,13 +19,19 @@ const PAPER: Demand = Demand { extent: 1024, recog: 8, prop: 16 };
 fn no_case_is_unstable_under_any_budget_and_rounding() {
     let odd = Demand { extent: 200, recog: 7, prop: 11 };
     let small = Demand { extent: 64, recog: 8, prop: 2 };
-    for demand in [PAPER, odd, small, Demand { extent: 4096, recog: 4, prop: 64 }] {
+    for demand in [PAPER, odd, small, Demand { extent: 2048, recog: 8, prop: 64 }] {
         let report = stability::run(&Request { demand, ..Request::default() }, |_| ()).unwrap();
         assert_eq!(report.cases.len(), ALL.len());
         for case in &report.cases {
             assert_eq!(case.roundings.len(), Rounding::ALL.len());
             for rounding in &case.roundings {
-                assert!(rounding.findings.is_empty(), "{demand:?} {} {}: {:?}", case.name, rounding.rounding, rounding.findings);
+                assert!(
+                    rounding.findings.is_empty(),
+                    "{demand:?} {} {}: {:?}",
+                    case.name,
+                    rounding.rounding,
+                    rounding.findings
+                );
                 assert_ne!(rounding.verdict, Verdict::Unstable);
             }
         }
@@ -50,7 +56,11 @@ fn nothing_grows_from_update_to_update() {
             assert_eq!(path.frames, 512);
             for update in 0..32 {
                 let worst = off(16 * update..16 * update + 17);
-                assert!(worst <= law.bound_px(16, true), "{rounding:?} {}: {worst} px after update {update}", path.name);
+                assert!(
+                    worst <= law.bound_px(16, true),
+                    "{rounding:?} {}: {worst} px after update {update}",
+                    path.name
+                );
             }
         }
     }

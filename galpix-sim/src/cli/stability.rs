@@ -75,7 +75,10 @@ impl Stability {
             Ok(())
         } else {
             let count = report.count(Verdict::Unstable);
-            Err(CliError::Failed(format!("{count} of {} cases are unstable: see the findings above", report.cases.len())))
+            Err(CliError::Failed(format!(
+                "{count} of {} cases are unstable: see the findings above",
+                report.cases.len()
+            )))
         }
     }
 }
@@ -139,7 +142,7 @@ fn paths(shown: &[(&CaseReport, &RoundingReport)], lines: &mut Vec<String>) {
         .filter_map(|(case, rounding)| {
             let worst = rounding.worst?;
             Some(format!(
-                "{:<17}{:>6}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}  {}",
+                "{:<17}{:>6}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>8}  {}",
                 case.name,
                 rounding.frames,
                 px(worst.taylor_px),
@@ -157,7 +160,7 @@ fn paths(shown: &[(&CaseReport, &RoundingReport)], lines: &mut Vec<String>) {
         .collect();
     if !rows.is_empty() {
         lines.push(format!(
-            "{:<17}{:>6}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}  verdict",
+            "{:<17}{:>6}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>8}  verdict",
             "paths", "frames", "Taylor", "quant", "drift", "snap", "satur", "bound", "f32", "f64", "clamped"
         ));
         lines.extend(rows);
@@ -170,9 +173,8 @@ fn pictures(shown: &[(&CaseReport, &RoundingReport)], lines: &mut Vec<String>) {
         .filter(|(_, rounding)| !rounding.pictures.is_empty())
         .map(|(case, rounding)| {
             let sum = |column: fn(&PictureReport) -> u64| rounding.pictures.iter().map(column).sum::<u64>();
-            let largest = |column: fn(&PictureReport) -> f64| {
-                px(rounding.pictures.iter().map(column).fold(0.0, f64::max))
-            };
+            let largest =
+                |column: fn(&PictureReport) -> f64| px(rounding.pictures.iter().map(column).fold(0.0, f64::max));
             format!(
                 "{:<17}{:>6}{:>10}{:>10}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}  {}",
                 case.name,

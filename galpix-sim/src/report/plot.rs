@@ -86,7 +86,8 @@ pub fn svg_log(plot: &Plot) -> Option<String> {
 
 /// The powers of ten around all figures above 0, never the same.
 fn decades(plot: &Plot) -> Option<(i32, i32)> {
-    let powers = || plot.lines.iter().flat_map(Line::measured).filter(|(_, value)| *value > 0.0).map(|(_, v)| v.log10());
+    let powers =
+        || plot.lines.iter().flat_map(Line::measured).filter(|(_, value)| *value > 0.0).map(|(_, v)| v.log10());
     let (least, most) = (powers().reduce(f64::min)?, powers().reduce(f64::max)?);
     let highest = most.ceil() as i32;
     let lowest = (least.floor() as i32).max(highest - MOST_DECADES).min(highest - 1);
@@ -120,7 +121,10 @@ impl Ranged for Decades {
 
 /// A whole power of ten as a label: a plain number where that is short.
 fn power_of_ten(power: f64) -> String {
-    const DIGITS: [char; 10] = ['\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}', '\u{2079}'];
+    const DIGITS: [char; 10] = [
+        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}',
+        '\u{2079}',
+    ];
     let power = power.round() as i32;
     match power {
         0..=3 => 10u32.pow(power as u32).to_string(),

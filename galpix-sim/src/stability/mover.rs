@@ -65,7 +65,11 @@ impl Strip {
             setting: *setting,
             budget: Chosen::new(setting.bits)?,
             component,
-            settings: Settings { rounding, rung: Rung::None, ..Settings::for_depth(setting.record.depth().bits.into()) },
+            settings: Settings {
+                rounding,
+                rung: Rung::None,
+                ..Settings::for_depth(setting.record.depth().bits.into())
+            },
             galpixel: Galpixel::default(),
             cell: 0,
             memory: Default::default(),

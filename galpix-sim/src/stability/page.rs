@@ -123,7 +123,12 @@ fn overview(report: &Report) -> String {
             let sum = |column: fn(&PictureReport) -> u64| count(shown.pictures.iter().map(column).sum());
             let columns: String = PICTURE_COLUMNS.iter().map(|(name, column)| cell(name, sum(*column))).collect();
             let off = shown.pictures.iter().map(|picture| picture.worst_px).fold(0.0, f64::max);
-            format!("<tr>{}{columns}{}{}</tr>", name(index, case), cell("position", px(off)), cell("verdict", badge(case.verdict)))
+            format!(
+                "<tr>{}{columns}{}{}</tr>",
+                name(index, case),
+                cell("position", px(off)),
+                cell("verdict", badge(case.verdict))
+            )
         })
         .collect();
     let heads = |names: Vec<&str>| names.iter().map(|name| format!("<th>{name}</th>")).collect::<String>();
@@ -139,7 +144,11 @@ fn overview(report: &Report) -> String {
         ["paths"].into_iter().chain(PATH_COLUMNS.iter().map(|column| column.0)).chain(["clamped", "verdict"]).collect(),
     );
     let picture_heads = heads(
-        ["pictures"].into_iter().chain(PICTURE_COLUMNS.iter().map(|column| column.0)).chain(["position", "verdict"]).collect(),
+        ["pictures"]
+            .into_iter()
+            .chain(PICTURE_COLUMNS.iter().map(|column| column.0))
+            .chain(["position", "verdict"])
+            .collect(),
     );
     let rounding = report.cases.first().and_then(CaseReport::shown).map_or("", |shown| shown.rounding);
     format!(

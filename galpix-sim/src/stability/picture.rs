@@ -69,7 +69,10 @@ impl Census {
                 moved == self.settled + lost + collided,
                 format!("moved {moved}, but settled {} + lost {lost} + collided {collided}", self.settled),
             ),
-            (holes + self.settled == self.cells, format!("{holes} holes + {} settled of {} cells", self.settled, self.cells)),
+            (
+                holes + self.settled == self.cells,
+                format!("{holes} holes + {} settled of {} cells", self.settled, self.cells),
+            ),
             (
                 bullets + debris + galdebris + empty == holes,
                 format!("{bullets} + {debris} + {galdebris} + {empty} are not {holes} holes"),
@@ -182,7 +185,11 @@ fn run_as<L: Layout>(
         let tally = controller.step(&settings);
         let census = census(&controller, &held, tally);
         outcome.count(&census, number);
-        origins = controller.winners().iter().map(|&winner| origins.get(winner as usize).copied().unwrap_or(NOBODY)).collect();
+        origins = controller
+            .winners()
+            .iter()
+            .map(|&winner| origins.get(winner as usize).copied().unwrap_or(NOBODY))
+            .collect();
         (0..).map_while(|plane| controller.front().plane(plane)).for_each(|plane| plane.hash(&mut bits));
         for (cell, &origin) in (0u32..).zip(&origins) {
             let Some(Some(track)) = tracks.get(origin as usize) else { continue };

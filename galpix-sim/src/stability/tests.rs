@@ -99,7 +99,8 @@ fn planted(path: &Path, rounding: Rounding, fault: Fault) -> PathReport {
 fn the_kernels_one_after_the_other_are_the_engine_on_its_strip() {
     let setting = setting();
     for rounding in Rounding::ALL {
-        for (v, a) in [(0.0, 0.0), (731.0, -90.0), (-5.0, 3.0), (65_000.0, 16_000.0), (65_535.0, -16_384.0), (1.4, 0.3)] {
+        for (v, a) in [(0.0, 0.0), (731.0, -90.0), (-5.0, 3.0), (65_000.0, 16_000.0), (65_535.0, -16_384.0), (1.4, 0.3)]
+        {
             let path = path(v, a, 40);
             let law = Law::of(&setting, 0, rounding, 40);
             let mut strip = Strip::new(&setting, 0, rounding).unwrap();
@@ -118,7 +119,8 @@ fn the_shares_of_a_path_worked_out_by_hand() {
     // 1.375 last bits of 1/128 are stored as 1; twice that is less than a last bit of the position: it never moves.
     let followed = follow(&path(1.375, 0.0, 10), &setting, Rounding::Truncate, &mut strip);
     let row = followed.rows.last().unwrap();
-    let shares = [row.causes.taylor, row.causes.quantisation, row.causes.saturation, row.causes.drift, row.causes.snapping];
+    let shares =
+        [row.causes.taylor, row.causes.quantisation, row.causes.saturation, row.causes.drift, row.causes.snapping];
     assert_eq!(shares.map(Px::to_f64), [0.0, 3.75 / 128.0, 0.0, 10.0 / 128.0, 0.0]);
     // A velocity one last bit beyond its field, and an acceleration that takes it farther by one more each frame: the
     // stored one stands still at the end of its field.
@@ -177,7 +179,11 @@ fn a_slow_growth_without_an_update_is_found_by_the_law_beyond_the_certificate() 
     let path = path(1.0, 0.0, 512);
     let found = planted(&path, Rounding::LowDiscrepancy, Fault::Threshold);
     assert_eq!(found.verdict, Verdict::Unstable);
-    assert_eq!(planted(&path, Rounding::LowDiscrepancy, Fault::None).verdict, Verdict::NotCovered, "only that it is late");
+    assert_eq!(
+        planted(&path, Rounding::LowDiscrepancy, Fault::None).verdict,
+        Verdict::NotCovered,
+        "only that it is late"
+    );
 }
 
 #[test]
@@ -188,12 +194,10 @@ fn verdicts_say_what_is_not_covered() {
         let mut strip = Strip::new(&setting, 0, Rounding::LowDiscrepancy).unwrap();
         let report = run_path(&path, &setting, Rounding::LowDiscrepancy, &law, &mut strip);
         let uncovered = report.uncovered;
-        (
-            report.verdict,
-            [uncovered.taylor_px, uncovered.saturation_px, uncovered.past_prop_px].map(|px| px.is_some()),
-        )
+        (report.verdict, [uncovered.taylor_px, uncovered.saturation_px, uncovered.past_prop_px].map(|px| px.is_some()))
     };
-    let cubic = |part: f64| Motion::Analytic(Box::new(move |t: f64| [part * t * t * t, 3.0 * part * t * t, 6.0 * part * t]));
+    let cubic =
+        |part: f64| Motion::Analytic(Box::new(move |t: f64| [part * t * t * t, 3.0 * part * t * t, 6.0 * part * t]));
     assert_eq!(run(path(100.3, 7.7, 16)), (Verdict::Bounded, [false; 3]));
     assert_eq!(run(path(100.3, 7.7, 17)), (Verdict::NotCovered, [false, false, true]));
     assert_eq!(run(path(70_000.0, 0.0, 16)), (Verdict::NotCovered, [false, true, false]));
@@ -209,7 +213,17 @@ fn a_census_that_does_not_add_up_is_found() {
         settled: 4,
         strange: 0,
         empty: 1,
-        tally: Tally { moved: 7, lost: 2, collided: 1, holes: 6, bullets: 2, debris: 2, galdebris: 1, empty: 1, ..Tally::default() },
+        tally: Tally {
+            moved: 7,
+            lost: 2,
+            collided: 1,
+            holes: 6,
+            bullets: 2,
+            debris: 2,
+            galdebris: 1,
+            empty: 1,
+            ..Tally::default()
+        },
     };
     assert!(good.findings().is_empty(), "{:?}", good.findings());
     let spoil = |spoil: fn(&mut Census)| {
@@ -243,7 +257,8 @@ fn cases_and_their_demands_are_refused_in_one_sentence() {
 
 #[test]
 fn exact_numbers_round_to_nearest_halves_upwards() {
-    for (value, frac, nearest) in [(0.5, 0, 1), (-0.5, 0, 0), (0.49, 0, 0), (1.25, 1, 3), (-1.25, 1, -2), (3.0, 2, 12)] {
+    for (value, frac, nearest) in [(0.5, 0, 1), (-0.5, 0, 0), (0.49, 0, 0), (1.25, 1, 3), (-1.25, 1, -2), (3.0, 2, 12)]
+    {
         assert_eq!(Px::near(value).nearest(frac), nearest, "{value}");
     }
     assert_eq!(Px::of(3, 1), Px::near(1.5));

@@ -107,11 +107,7 @@ fn broken(row: &Row, law: &Law, aligned: bool, last_clean: u32) -> Option<String
     let stuck = law.last_bit_px * f64::from(row.since - last_clean.min(row.since));
     let drift_law = law.drift_px(row.since, aligned) + stuck;
     if !row.saturated && arithmetic_px(row) > law.bound_px(row.since, aligned) + FLOAT_PX {
-        Some(format!(
-            "off by {:.4} px, over the bound of {:.4}",
-            arithmetic_px(row),
-            law.bound_px(row.since, aligned)
-        ))
+        Some(format!("off by {:.4} px, over the bound of {:.4}", arithmetic_px(row), law.bound_px(row.since, aligned)))
     } else if drift > drift_law + FLOAT_PX {
         Some(format!("drifted {drift:.4} px, over {drift_law:.4}"))
     } else if snapping >= half || snapping < Px::default() - half {

@@ -57,7 +57,10 @@ pub fn opposite(setting: &Setting) -> Vec<Path> {
         Path::new(name, 0, stored(&ranges, [0, sign * (v + dv), -sign * (a + da)]), setting.demand.prop)
     };
     let steps = [-1, 0, 1];
-    [1, -1].into_iter().flat_map(|sign| steps.into_iter().flat_map(move |dv| steps.map(|da| path(sign, dv, da)))).collect()
+    [1, -1]
+        .into_iter()
+        .flat_map(|sign| steps.into_iter().flat_map(move |dv| steps.map(|da| path(sign, dv, da))))
+        .collect()
 }
 
 fn signed(steps: i64) -> String {
@@ -90,9 +93,8 @@ pub fn depth_ends(setting: &Setting) -> Vec<Path> {
     let (far, bin) = (ranges.far.unwrap_or(0), 1i64 << ranges.scale.position_frac);
     let v = 1i64 << ranges.scale.velocity_frac;
     let turn = (v / 4).clamp(1, ranges.acceleration_top);
-    let path = |(name, r, v, a): (&str, i64, i64, i64)| {
-        Path::new(name, 2, stored(&ranges, [r, v, a]), setting.demand.prop)
-    };
+    let path =
+        |(name, r, v, a): (&str, i64, i64, i64)| Path::new(name, 2, stored(&ranges, [r, v, a]), setting.demand.prop);
     [
         ("resting at the nearest", 0, 0, 0),
         ("resting at the farthest", far, 0, 0),

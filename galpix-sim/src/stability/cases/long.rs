@@ -36,7 +36,14 @@ pub fn sub_lsb(setting: &Setting) -> Vec<Path> {
         ("v of 0.49 last bits", [0.49, 0.49, 0.0]),
         ("v of -0.49 last bits", [-0.49, -0.49, 0.0]),
         ("v of 0.51 last bits", [0.0, 0.51, 0.0]),
-        ("v of 1/2 last bit of r", [0.0, f64::from(1u32 << setting.bits.x.velocity_frac.saturating_sub(setting.bits.x.position_frac)) / 2.0, 0.0]),
+        (
+            "v of 1/2 last bit of r",
+            [
+                0.0,
+                f64::from(1u32 << setting.bits.x.velocity_frac.saturating_sub(setting.bits.x.position_frac)) / 2.0,
+                0.0,
+            ],
+        ),
         ("a of 1 last bit", [0.0, 0.0, 1.0]),
         ("a of 0.49 last bits", [0.0, 0.0, 0.49]),
     ]
@@ -66,10 +73,7 @@ pub fn re_anchored(setting: &Setting) -> Vec<Path> {
         path("v of a third of a cell", slow(1.0 / 3.0)),
         path("v of -0.49 last bits", parts(setting, [0.0, -0.49, 0.0])),
         path("v of a golden part", slow(0.618_033_988_749)),
-        path(
-            "a slow swing",
-            harmonic(extent / 2.0, extent / 4.0, TAU / (40.0 * f64::from(prop)), 0.1),
-        ),
+        path("a slow swing", harmonic(extent / 2.0, extent / 4.0, TAU / (40.0 * f64::from(prop)), 0.1)),
     ]
 }
 
@@ -78,8 +82,13 @@ pub fn counter_wrap(setting: &Setting) -> Vec<Path> {
     let prop = setting.demand.prop;
     let states = [[0.0, 5.0, 3.0], [0.25, -11.0, 7.0], [-0.5, 123.0, -13.0], [0.0, -1.0, 1.0]];
     let path = |(state, before): ([f64; 3], u32)| {
-        Path::new(format!("v of {} and a of {} last bits, wraps after {before}", state[1], state[2]), 0, parts(setting, state), prop)
-            .from_counter(u32::MAX - before + 1)
+        Path::new(
+            format!("v of {} and a of {} last bits, wraps after {before}", state[1], state[2]),
+            0,
+            parts(setting, state),
+            prop,
+        )
+        .from_counter(u32::MAX - before + 1)
     };
     states.into_iter().flat_map(|state| [1, prop / 2, prop - 1].map(|before| path((state, before)))).collect()
 }

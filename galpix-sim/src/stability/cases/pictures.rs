@@ -108,7 +108,14 @@ pub fn one_cell(setting: &Setting) -> Vec<Picture> {
     // No farther than a velocity reaches in a frame.
     let half = (fastest(setting) as u32).clamp(1, 32);
     let side = 2 * half - 1;
-    let towards = move |x: u32, y: u32| [half - 1, half - 1].map(f64::from).into_iter().zip([x, y]).map(|(to, from)| to - f64::from(from)).collect::<Vec<_>>();
+    let towards = move |x: u32, y: u32| {
+        [half - 1, half - 1]
+            .map(f64::from)
+            .into_iter()
+            .zip([x, y])
+            .map(|(to, from)| to - f64::from(from))
+            .collect::<Vec<_>>()
+    };
     vec![
         picture("in one frame", [side, side], setting.demand.prop, move |x, y| {
             let way = towards(x, y);
@@ -126,9 +133,7 @@ pub fn off_screen(setting: &Setting) -> Vec<Picture> {
     let v = fastest(setting);
     let side = (v as u32).clamp(1, 48);
     [("right", [v, 0.0]), ("left", [-v, 0.0]), ("down", [0.0, v]), ("up", [0.0, -v]), ("down and left", [-v, v])]
-        .map(|(name, velocity)| {
-            picture(name, [side, side], 4, move |x, y| moving(x, y, velocity, [0.0, 0.0]))
-        })
+        .map(|(name, velocity)| picture(name, [side, side], 4, move |x, y| moving(x, y, velocity, [0.0, 0.0])))
         .into()
 }
 
@@ -140,8 +145,21 @@ pub fn empty(setting: &Setting) -> Vec<Picture> {
 
 /// Columns and rows around those that the passes take at once.
 pub fn sizes(setting: &Setting) -> Vec<Picture> {
-    let sizes =
-        [[1, 1], [1, 2], [2, 1], [1, 257], [257, 1], [3, 5], [7, 7], [31, 33], [63, 2], [64, 2], [65, 2], [127, 3], [129, 3]];
+    let sizes = [
+        [1, 1],
+        [1, 2],
+        [2, 1],
+        [1, 257],
+        [257, 1],
+        [3, 5],
+        [7, 7],
+        [31, 33],
+        [63, 2],
+        [64, 2],
+        [65, 2],
+        [127, 3],
+        [129, 3],
+    ];
     sizes.map(|size| picture(format!("{} x {}", size[0], size[1]), size, setting.demand.prop, mixed)).into()
 }
 
