@@ -127,7 +127,7 @@ fn tables(report: &Report) -> Vec<String> {
         }
     }
     lines.push(format!(
-        "{} bounded, {} not covered, {} unstable. Taylor: second order cannot know it; clamped: a field ended; late: after \
+        "{} bounded, {} not covered, {} unstable. Taylor: beyond second order; clamped: a field ended; late: after \
          tau_prop.",
         report.count(Verdict::Bounded),
         report.count(Verdict::NotCovered),

@@ -17,9 +17,32 @@ pub fn plots(case: &CaseReport, shown: &RoundingReport) -> String {
     format!("<div class=\"plots\">{}</div>", parts.concat())
 }
 
+/// Of more updates than this only the largest figure between two of them is drawn.
+const MOST_UPDATES: usize = 8;
+
 fn line(name: &str, ink: Ink, stroke: Stroke, path: &PathReport, column: impl Fn(&SeriesRow) -> Option<f64>) -> Line {
-    let points = path.series.iter().map(|row| (row.frame, column(row))).collect();
+    let points = path.series.iter().map(|row| (row.frame, column(row)));
+    let points = if many_updates(path) {
+        let between = path.series.chunk_by(|one, next| one.since_update < next.since_update);
+        let largest = |rows: &[SeriesRow]| {
+            let values = rows.iter().filter_map(&column);
+            values.max_by(|one, two| one.abs().total_cmp(&two.abs()))
+        };
+        between.map(|rows| (rows.last().map_or(0, |row| row.frame), largest(rows))).collect()
+    } else {
+        points.collect()
+    };
     Line { name: name.to_owned(), ink, stroke, points }
+}
+
+fn many_updates(path: &PathReport) -> bool {
+    path.series.windows(2).filter(|rows| rows[1].since_update <= rows[0].since_update).count() > MOST_UPDATES
+}
+
+/// A remark with a word on what is left out.
+fn remark(text: &str, path: &PathReport) -> String {
+    let left_out = if many_updates(path) { " A point an update: the largest until the next." } else { "" };
+    format!("{text}{left_out}")
 }
 
 /// What quantisation and drift together may be. Where the certificate ends for good, so does its line.
@@ -59,7 +82,14 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> String {
         share("drift", Ink::Galpix, |row| row.drift_px),
     ]);
     lines.retain(says_something);
-    figure(case, "Error by cause", "px", &format!("{}: the path that is farthest off.", path.name), lines, true)
+    figure(
+        case,
+        "Error by cause",
+        "px",
+        &remark(&format!("{}: the path that is farthest off.", path.name), path),
+        lines,
+        true,
+    )
 }
 
 fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
@@ -72,12 +102,12 @@ fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
         }),
     ]);
     lines.retain(says_something);
-    let mut remark =
+    let mut text =
         "From the exact second-order path of the exact values. The engine has what fits into its fields.".to_owned();
     if !lines.iter().any(|line| line.name.starts_with('f')) {
-        remark += " Floats are exact here.";
+        text += " Floats are exact here.";
     }
-    figure(case, "The engine beside floats", "px", &remark, lines, true)
+    figure(case, "The engine beside floats", "px", &remark(&text, path), lines, true)
 }
 
 /// The drift of the same path with each rounding.
@@ -91,7 +121,7 @@ fn by_rounding(case: &CaseReport, path: &PathReport) -> String {
     if !lines.iter().any(|line| line.points.iter().any(|&(_, value)| value.is_some_and(|value| value != 0.0))) {
         lines.clear();
     }
-    figure(case, "Drift with each rounding", "px", "Of the same path, with its sign.", lines, false)
+    figure(case, "Drift with each rounding", "px", &remark("Of the same path, with its sign.", path), lines, false)
 }
 
 /// All pictures of a case together.
@@ -121,7 +151,7 @@ fn figure(case: &CaseReport, title: &str, unit: &str, remark: &str, lines: Vec<L
     let description = format!("{}: {title} in {unit} over frames", case.name);
     let plot = Plot { description, lines, from_zero: true, cap: f64::INFINITY };
     let Some(drawing) = (if log { svg_log(&plot) } else { svg(&plot) }) else {
-        return format!("<figure><h3>{title}</h3><p class=\"nothing\">Nothing to draw: no error at all.</p></figure>");
+        return format!("<figure><h3>{title}</h3><p class=\"nothing\">Nothing to draw: it is 0 in every frame.</p></figure>");
     };
     let scale = if log { ", logarithmic" } else { "" };
     format!(
