@@ -55,6 +55,8 @@ pub struct Row {
     pub causes: Causes,
     /// Whether a field has been clamped since the last update.
     pub saturated: bool,
+    /// Whether the stored acceleration is 0.
+    pub steady: bool,
     /// What the same scheme in `f32` is off from the exact path of the exact r, v, a, in pixels.
     pub f32_px: f64,
     /// The same in `f64`.
@@ -237,6 +239,7 @@ fn push(
         shown: shown(state, ranges),
         causes: reference.causes(place, state, ranges),
         saturated: reference.saturated,
+        steady: reference.raw[2] == 0,
         f32_px: floats.0.off_px(exact),
         f64_px: floats.1.off_px(exact),
     });

@@ -106,6 +106,8 @@ pub struct Law {
     certificate: Certificate,
     /// The same enumeration for all frames.
     beyond: Certificate,
+    /// The same of the states without acceleration, which drift less.
+    steady: Certificate,
 }
 
 impl Law {
@@ -113,13 +115,15 @@ impl Law {
     #[must_use]
     pub fn of(setting: &Setting, component: usize, rounding: Rounding, frames: u32) -> Self {
         let scale = &setting.record.scales[component];
+        let longest = frames.max(setting.demand.prop);
         let of = |frames: u32| Certificate::of(scale, true, rounding, frames);
         Self {
             certified: setting.demand.prop,
             last_bit_px: 0.5f64.powi(scale.position_frac as i32),
             searched: rounding == Rounding::Searched,
             certificate: of(setting.demand.prop),
-            beyond: of(frames.max(setting.demand.prop)),
+            beyond: of(longest),
+            steady: Certificate::of(scale, false, rounding, longest),
         }
     }
 
@@ -138,10 +142,20 @@ impl Law {
     pub fn drift_px(&self, frame: u32, aligned: bool) -> f64 {
         // Of a searched table that an update does not enter at its first entry only the largest drift is known.
         let any = if frame <= self.certified { &self.certificate } else { &self.beyond };
-        match self.after(frame) {
+        self.drift_of(&self.beyond, any, frame, aligned)
+    }
+
+    /// The same for a galpixel without acceleration.
+    #[must_use]
+    pub fn steady_drift_px(&self, frame: u32, aligned: bool) -> f64 {
+        self.drift_of(&self.steady, &self.steady, frame, aligned)
+    }
+
+    fn drift_of(&self, by_frame: &Certificate, any: &Certificate, frame: u32, aligned: bool) -> f64 {
+        let Some(index) = frame.checked_sub(1) else { return 0.0 };
+        match by_frame.frames.get(index as usize) {
             Some(_) if self.searched && !aligned => any.drift_any_phase_px,
             Some(bound) => bound.drift_px,
-            None if frame == 0 => 0.0,
             None => f64::INFINITY,
         }
     }

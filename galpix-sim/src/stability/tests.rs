@@ -159,7 +159,7 @@ fn every_fault_is_found_and_its_absence_is_not() {
         (&fast, Fault::VelocityWraps, "the velocity changed by more than the acceleration: it wrapped"),
         (&far, Fault::PositionWraps, "the position jumped farther than the largest velocity allows: it wrapped"),
         (&fast, Fault::Count, "a clamped field was not counted"),
-        (&slow, Fault::Threshold, "over the bound"),
+        (&slow, Fault::Threshold, "drifted"),
         (&slow, Fault::Store, "a stored field is not the nearest"),
         (&slow, Fault::Cell, "not in the nearest cell"),
         (&slow, Fault::Gone, "the galpixel is nowhere"),

@@ -105,7 +105,8 @@ fn broken(row: &Row, law: &Law, aligned: bool, last_clean: u32) -> Option<String
     let snapping = row.causes.snapping;
     let half = Px::of(1, 1);
     let stuck = law.last_bit_px * f64::from(row.since - last_clean.min(row.since));
-    let drift_law = law.drift_px(row.since, aligned) + stuck;
+    let clean = if row.steady { law.steady_drift_px(row.since, aligned) } else { law.drift_px(row.since, aligned) };
+    let drift_law = clean + stuck;
     if !row.saturated && arithmetic_px(row) > law.bound_px(row.since, aligned) + FLOAT_PX {
         Some(format!("off by {:.4} px, over the bound of {:.4}", arithmetic_px(row), law.bound_px(row.since, aligned)))
     } else if drift > drift_law + FLOAT_PX {

@@ -151,7 +151,9 @@ fn figure(case: &CaseReport, title: &str, unit: &str, remark: &str, lines: Vec<L
     let description = format!("{}: {title} in {unit} over frames", case.name);
     let plot = Plot { description, lines, from_zero: true, cap: f64::INFINITY };
     let Some(drawing) = (if log { svg_log(&plot) } else { svg(&plot) }) else {
-        return format!("<figure><h3>{title}</h3><p class=\"nothing\">Nothing to draw: it is 0 in every frame.</p></figure>");
+        return format!(
+            "<figure><h3>{title}</h3><p class=\"nothing\">Nothing to draw: it is 0 in every frame.</p></figure>"
+        );
     };
     let scale = if log { ", logarithmic" } else { "" };
     format!(
