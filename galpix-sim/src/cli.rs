@@ -6,6 +6,7 @@ mod demo;
 mod plan;
 mod run;
 mod scenes;
+mod stability;
 mod vectors;
 
 use std::io::Write;
@@ -63,6 +64,8 @@ enum Command {
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
     Plan(plan::PlanArguments),
+    /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
+    Stability(stability::Stability),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
@@ -81,6 +84,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
+        Command::Stability(stability) => stability.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
     };

@@ -17,5 +17,6 @@ pub mod plan;
 pub mod progress;
 pub mod report;
 pub mod scene;
+pub mod stability;
 pub mod update;
 pub mod vectors;

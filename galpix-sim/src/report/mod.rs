@@ -11,11 +11,11 @@
 mod figures;
 mod overview;
 mod page;
-mod plot;
+pub(crate) mod plot;
 mod save;
 mod story;
-mod style;
-mod text;
+pub(crate) mod style;
+pub(crate) mod text;
 
 pub use page::{document, html};
 pub use save::write_atomically;

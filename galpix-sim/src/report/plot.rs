@@ -2,6 +2,7 @@
 
 use super::style::Ink;
 use super::text::{Text, figure};
+use plotters::coord::ranged1d::{AsRangedCoord, DefaultFormatting, KeyPointHint, ValueFormatter};
 use plotters::prelude::*;
 
 /// Units of the drawing for each unit of the page: `plotters` places in whole units.
@@ -10,6 +11,8 @@ const WIDTH: u32 = 380;
 const HEIGHT: u32 = 236;
 /// Above this many points a line carries no dots.
 const MOST_DOTS: usize = 40;
+/// Powers of ten that a logarithmic axis spans at most.
+const MOST_DECADES: i32 = 8;
 
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,8 +64,82 @@ pub struct Plot {
 pub fn svg(plot: &Plot) -> Option<String> {
     let frames = frame_range(plot)?;
     let values = value_range(plot)?;
+    let decimals = decimals(values.end - values.start);
+    let label = move |value: &f64| figure(Some(*value), decimals);
+    let end = values.end;
     let mut drawing = String::new();
-    draw(plot, frames, values, &mut drawing).ok()?;
+    draw(plot, frames, values, &label, |value| value.min(end), &mut drawing).ok()?;
+    finished(plot, &drawing)
+}
+
+/// The same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below, and those more
+/// than [`MOST_DECADES`] powers of ten below the largest, are drawn at its lower end.
+pub fn svg_log(plot: &Plot) -> Option<String> {
+    let frames = frame_range(plot)?;
+    let (lowest, highest) = decades(plot)?;
+    let (start, end) = (f64::from(lowest), f64::from(highest));
+    let inside = |value: f64| if value > 0.0 { value.log10().clamp(start, end) } else { start };
+    let mut drawing = String::new();
+    draw(plot, frames, Decades { lowest, highest }, &|power| power_of_ten(*power), inside, &mut drawing).ok()?;
+    finished(plot, &drawing)
+}
+
+/// The powers of ten around all figures above 0, never the same.
+fn decades(plot: &Plot) -> Option<(i32, i32)> {
+    let powers =
+        || plot.lines.iter().flat_map(Line::measured).filter(|(_, value)| *value > 0.0).map(|(_, v)| v.log10());
+    let (least, most) = (powers().reduce(f64::min)?, powers().reduce(f64::max)?);
+    let highest = most.ceil() as i32;
+    let lowest = (least.floor() as i32).max(highest - MOST_DECADES).min(highest - 1);
+    Some((lowest, highest))
+}
+
+/// An axis of powers of ten: its values are their exponents.
+struct Decades {
+    lowest: i32,
+    highest: i32,
+}
+
+impl Ranged for Decades {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let part = (value - f64::from(self.lowest)) / f64::from(self.highest - self.lowest);
+        limit.0 + (part * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        let step = if self.highest - self.lowest > 5 { 2 } else { 1 };
+        (self.lowest..=self.highest).rev().step_by(step).map(f64::from).collect()
+    }
+
+    fn range(&self) -> std::ops::Range<f64> {
+        self.lowest.into()..self.highest.into()
+    }
+}
+
+/// A whole power of ten as a label: a plain number where that is short.
+fn power_of_ten(power: f64) -> String {
+    const DIGITS: [char; 10] = [
+        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}',
+        '\u{2079}',
+    ];
+    let power = power.round() as i32;
+    match power {
+        0..=3 => 10u32.pow(power as u32).to_string(),
+        -3..0 => figure(Some(10f64.powi(power)), power.unsigned_abs() as usize),
+        _ => {
+            let sign = if power < 0 { "\u{207b}" } else { "" };
+            let digits = power.unsigned_abs().to_string();
+            let raised: String = digits.bytes().map(|digit| DIGITS[usize::from(digit - b'0')]).collect();
+            format!("10{sign}{raised}")
+        }
+    }
+}
+
+/// A drawing with an opening tag of its own.
+fn finished(plot: &Plot, drawing: &str) -> Option<String> {
     // its own opening tag instead of the backend's, which fixes a size and names a namespace that HTML does not need
     let body = drawing.split_once('>')?.1;
     Some(format!(
@@ -96,15 +173,25 @@ fn value_range(plot: &Plot) -> Option<std::ops::Range<f64>> {
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 
-fn draw(plot: &Plot, frames: std::ops::Range<u32>, values: std::ops::Range<f64>, drawing: &mut String) -> Drawn {
+fn draw<Y>(
+    plot: &Plot,
+    frames: std::ops::Range<u32>,
+    axis: Y,
+    label: &dyn Fn(&f64) -> String,
+    inside: impl Fn(f64) -> f64,
+    drawing: &mut String,
+) -> Drawn
+where
+    Y: AsRangedCoord<Value = f64>,
+    Y::CoordDescType: ValueFormatter<f64>,
+{
     let root = SVGBackend::with_string(drawing, (WIDTH * FINE, HEIGHT * FINE)).into_drawing_area();
     let mut chart = ChartBuilder::on(&root)
         .margin_top(10 * FINE)
         .margin_right(14 * FINE)
         .x_label_area_size(22 * FINE)
         .y_label_area_size(46 * FINE)
-        .build_cartesian_2d(frames, values.clone())?;
-    let decimals = decimals(values.end - values.start);
+        .build_cartesian_2d(frames, axis)?;
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -114,12 +201,11 @@ fn draw(plot: &Plot, frames: std::ops::Range<u32>, values: std::ops::Range<f64>,
         .set_all_tick_mark_size(4 * FINE)
         .x_labels(7)
         .y_labels(6)
-        .y_label_formatter(&|value| figure(Some(*value), decimals))
+        .y_label_formatter(&label)
         .label_style(("sans-serif", 14 * FINE).into_font().color(&colour(Ink::Label)))
         .draw()?;
-    let inside = |(frame, value): (u32, f64)| (frame, value.min(values.end));
     for line in &plot.lines {
-        let points: Vec<_> = line.measured().map(inside).collect();
+        let points: Vec<_> = line.measured().map(|(frame, value)| (frame, inside(value))).collect();
         match line.stroke {
             Stroke::Solid => {
                 chart.draw_series(LineSeries::new(points.iter().copied(), pen(line.ink, 2)))?;
@@ -203,6 +289,25 @@ mod tests {
         assert!(range.start > 18.0 && range.end < 32.0, "{range:?}");
         plot.lines[0].points.truncate(1);
         assert!(value_range(&plot).is_some_and(|range| range.contains(&100.0)));
+    }
+
+    #[test]
+    fn a_logarithmic_axis_spans_whole_decades_and_takes_anything() {
+        for (values, expected) in [
+            ([0.02, 30.0], Some((-2, 2))),
+            ([1e-30, 5.0], Some((-7, 1))),
+            ([0.0, 1.0], Some((-1, 0))),
+            ([-1.0, 1e5], Some((4, 5))),
+            ([0.0, -1.0], None),
+        ] {
+            let plot = plot(vec![(1, Some(values[0])), (2, Some(values[1])), (3, Some(f64::NAN)), (4, None)]);
+            assert_eq!(decades(&plot), expected, "{values:?}");
+            let drawing = svg_log(&plot);
+            assert_eq!(drawing.is_some(), expected.is_some());
+            assert!(drawing.is_none_or(|drawing| drawing.matches("<circle").count() == 2));
+        }
+        let labels: Vec<String> = [-12, -3, -1, 0, 3, 4, 15].map(f64::from).map(power_of_ten).into();
+        assert_eq!(labels, ["10\u{207b}\u{b9}\u{b2}", "0.001", "0.1", "1", "1000", "10\u{2074}", "10\u{b9}\u{2075}"]);
     }
 
     #[test]
