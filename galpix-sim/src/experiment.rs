@@ -10,7 +10,7 @@ use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::BudgetError;
 use galpix_core::fill::Rung;
-use galpix_core::frame::Settings;
+use galpix_core::frame::{Settings, Work};
 use galpix_core::layout::{Full, Layout, Shaded};
 use galpix_core::record::Record;
 use galpix_core::rounding::Rounding;
@@ -249,7 +249,7 @@ fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settin
     };
     let edge_threshold =
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
-    Settings { rounding: request.rounding, rung: request.fill, edge_threshold, reach: request.reach }
+    Settings { rounding: request.rounding, rung: request.fill, edge_threshold, reach: request.reach, work: Work::default() }
 }
 
 fn report<L: Layout>(
