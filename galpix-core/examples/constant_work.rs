@@ -127,7 +127,12 @@ fn size(text: &str) -> Result<(u32, u32), String> {
 fn table(counts: &[u64], cells: u32) -> bool {
     let mut keeps = true;
     for (layout, counts) in LAYOUTS.iter().zip(counts.chunks(Work::ALL.len() * Picture::ALL.len())) {
-        println!("\n{layout}: instructions a cell\n{:<16} {:>10} {:>10}", "picture", Work::ALL[0].name(), Work::ALL[1].name());
+        println!(
+            "\n{layout}: instructions a cell\n{:<16} {:>10} {:>10}",
+            "picture",
+            Work::ALL[0].name(),
+            Work::ALL[1].name()
+        );
         let modes: Vec<_> = counts.chunks(Picture::ALL.len()).collect();
         for (index, picture) in Picture::ALL.iter().enumerate() {
             let [skipping, constant] = [0, 1].map(|mode| modes[mode][index] as f64 / f64::from(cells));

@@ -8,8 +8,8 @@
 //! What is out of place is read and written in place and masked out: a galpixel that leaves the map meets the first cell, a
 //! neighbour beyond the border is the cell itself.
 //!
-//! Conditions are bits of numbers here, never a comparison that a compiler could turn into a jump; that the machine code has
-//! none is measured, see `docs/results.md`.
+//! Conditions are bits of numbers here, and the masks made of them are hidden from the optimiser, which else finds the condition
+//! again and jumps. That the machine code does not is measured, see `docs/results.md`.
 
 mod bullet;
 mod fill;
@@ -41,11 +41,17 @@ const fn choose(mask: u32, a: u32, b: u32) -> u32 {
     b ^ (a ^ b) & mask
 }
 
+/// A mask of whose origin the optimiser knows nothing.
+#[inline(always)]
+fn opaque(mask: u32) -> u32 {
+    core::hint::black_box(mask)
+}
+
 /// All ones for the class of an empty cell, else 0.
 #[inline(always)]
-const fn empty(class: u32) -> u32 {
+fn empty(class: u32) -> u32 {
     const { assert!(Class::Empty as u32 == 3, "the only class with both bits set") }
-    (class & class >> 1 & 1).wrapping_neg()
+    opaque((class & class >> 1 & 1).wrapping_neg())
 }
 
 /// All ones if these words are those of an empty cell, else 0.

@@ -249,7 +249,13 @@ fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settin
     };
     let edge_threshold =
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
-    Settings { rounding: request.rounding, rung: request.fill, edge_threshold, reach: request.reach, work: Work::default() }
+    Settings {
+        rounding: request.rounding,
+        rung: request.fill,
+        edge_threshold,
+        reach: request.reach,
+        work: Work::default(),
+    }
 }
 
 fn report<L: Layout>(

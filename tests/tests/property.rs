@@ -3,7 +3,7 @@
 use fixed::types::I32F32;
 use galpix_core::budget::Bits;
 use galpix_core::fill::{FILLED, Rung};
-use galpix_core::frame::{Controller, Settings, step, Work};
+use galpix_core::frame::{Controller, Settings, Work, step};
 use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel, Profile};
 use galpix_core::grid::Wings;
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Still, Velocity565, VelocityGray4};

@@ -48,7 +48,13 @@ enum Lent {
 }
 
 /// Some frames, with as much scratch memory as there is.
-fn frames<L: Layout, B: Budget<L>>(shape: Shape, budget: B, content: &[u32], settings: &Settings, lent: Lent) -> Vec<Trace> {
+fn frames<L: Layout, B: Budget<L>>(
+    shape: Shape,
+    budget: B,
+    content: &[u32],
+    settings: &Settings,
+    lent: Lent,
+) -> Vec<Trace> {
     let (winners, edges) = match lent {
         Lent::Both => (true, true),
         Lent::Winners => (true, false),
@@ -232,10 +238,11 @@ fn scenes_with_lanes_left_out_at_run_time() {
 fn same_on_pictures<L: Layout, P: Profile>() {
     for shape in [Shape::plain(96, 64), shape(60, 20, 9, 0, 3, 2)] {
         for picture in Picture::ALL {
-            let content = with_maps::<L, _, _>(shape, Static::<P>::new(), None, |mut front: Galpixmap<'_, L, Static<P>>, _| {
-                picture.paint(&mut front);
-                words(&front)
-            });
+            let content =
+                with_maps::<L, _, _>(shape, Static::<P>::new(), None, |mut front: Galpixmap<'_, L, Static<P>>, _| {
+                    picture.paint(&mut front);
+                    words(&front)
+                });
             for skipping in settings_in_turn(1, Chosen::<L>::new(P::BITS).unwrap().record().depth().bits) {
                 let constant = Settings { work: Work::Constant, ..skipping };
                 let one = traces::<L, _>(shape, Static::<P>::new(), &content, &skipping, FRAMES);

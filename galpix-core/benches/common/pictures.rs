@@ -93,7 +93,14 @@ impl Picture {
                 let way = [(part(0) - half) * 4, (part(1) - half) * 4, (part(2) - half) / 64];
                 let acceleration = [(part(3) - half) / 4, (part(2) - half) / 4, I32F32::ZERO];
                 let offset = [part(1) - half, part(0) - half];
-                Galpixel { velocity: way, acceleration, offset, depth: part(3), luminosity_rate: (part(0) - half) * 8, ..plane }
+                Galpixel {
+                    velocity: way,
+                    acceleration,
+                    offset,
+                    depth: part(3),
+                    luminosity_rate: (part(0) - half) * 8,
+                    ..plane
+                }
             }
             Self::Checkerboard => {
                 let way = number(1 - ((x ^ y) & 1) * 2);

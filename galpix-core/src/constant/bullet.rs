@@ -4,7 +4,7 @@
 //! the mean of two; with `p, p, p, p` it is `(4p + 2) >> 2 = p`. So one way of calculating does for one, two and four
 //! neighbours, bit by bit. The sum of four fields of 30 bits stays within 32.
 
-use super::{choose, negative};
+use super::{below, choose, negative, opaque};
 use crate::colour::Colour;
 use crate::edge::on_edge;
 use crate::fill::{FILLED, each_moving_field};
@@ -88,7 +88,8 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
             exists: exists & column,
         };
         let here = u32::MAX;
-        let sides = [place(-1, left, rows[1]), place(1, right, rows[1]), place(0, here, rows[0]), place(0, here, rows[2])];
+        let sides =
+            [place(-1, left, rows[1]), place(1, right, rows[1]), place(0, here, rows[0]), place(0, here, rows[2])];
         let corners =
             [place(-1, left, rows[0]), place(1, right, rows[2]), place(1, right, rows[0]), place(-1, left, rows[2])];
         // A vacant place is not inside a surface: where all sides are vacant, the corners count, and else the sides.
@@ -114,7 +115,7 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
     #[inline(always)]
     fn filled_before(&self, winner: u32) -> u32 {
         const { assert!(FILLED == 1 << 31) }
-        negative(winner as i32) & super::below(winner & !FILLED, self.round)
+        negative(winner as i32) & below(winner & !FILLED, self.round)
     }
 
     /// All ones if there was nothing at a place when this round began, else 0.
@@ -128,9 +129,9 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
     #[inline(always)]
     fn inside(&self, place: Place) -> u32 {
         let winner = self.winner(place);
-        let filled = negative(winner as i32);
+        let filled = opaque(negative(winner as i32));
         let on_edge = (on_edge(self.edges, winner & !filled) as u32).wrapping_neg();
-        let galpixel = super::below(self.back.class(place.cell) as u32, 1);
+        let galpixel = below(self.back.class(place.cell) as u32, 1);
         galpixel & choose(filled, self.filled_before(winner), !on_edge)
     }
 

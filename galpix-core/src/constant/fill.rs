@@ -1,7 +1,7 @@
 //! The fill ladder, asked of every cell in every round: what a hole would get, and whether it is one.
 
 use super::bullet::Surroundings;
-use super::{below, choose_words, is_empty, merge, merge_word};
+use super::{below, choose, choose_words, is_empty, merge_word, opaque};
 use crate::fill::{FILLED, Rung};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -68,17 +68,16 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
                 (Words::default(), 0)
             };
             let bullet = bullet & hole;
-            self.tally.holes += bullet & 1;
-            self.tally.bullets += bullet & 1;
-            merge(self.back, cell, &mean, bullet);
-            merge_word(self.winners, cell, FILLED + round, bullet);
+            let (mut words, mut winner, mut put) = (mean, FILLED + round, bullet);
             if last {
-                let unobscured = hole & !bullet;
-                self.tally.holes += unobscured & 1;
-                let words = self.unobscured(cell, &beside, &own, unobscured);
-                merge(self.back, cell, &words, unobscured);
-                merge_word(self.winners, cell, NOBODY, unobscured);
+                let unobscured = self.unobscured(cell, &beside, &own, hole & !bullet);
+                words = choose_words(self.back.record(), bullet, &mean, &unobscured);
+                (winner, put) = (choose(bullet, winner, NOBODY), hole);
             }
+            self.tally.holes += put & 1;
+            self.tally.bullets += bullet & 1;
+            self.back.put(cell, &choose_words(self.back.record(), put, &words, &own));
+            merge_word(self.winners, cell, winner, put);
             beside.left = choose_words(self.back.record(), hole, &beside.left, &own);
             beside.has_left |= !hole;
         }
@@ -93,10 +92,10 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
         for cell in (row..row + self.back.grid().width()).rev() {
             let own = self.back.words_at(cell).unwrap_or_default();
             let hole = is_empty(&record, &own);
-            let mut brought = right;
-            record.class().set(&mut brought, Class::Empty as u32);
-            merge(self.back, cell, &brought, hole);
             right = choose_words(&record, hole, &right, &own);
+            let mut brought = right;
+            record.class().set(&mut brought, record.class().unsigned(&own));
+            self.back.put(cell, &brought);
             taken += !hole & 1;
         }
         taken
@@ -121,7 +120,7 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
                 let depth = record.depth();
                 let has_right = below(0, beside.to_come);
                 let farther = below(depth.unsigned(&beside.left), depth.unsigned(right));
-                let take_right = has_right & (!beside.has_left | farther);
+                let take_right = opaque(has_right & (!beside.has_left | farther));
                 let surface = choose_words(record, take_right, right, &beside.left);
                 left_behind = choose_words(record, has_right | beside.has_left, &surface, &before);
             }
