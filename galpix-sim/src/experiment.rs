@@ -2,6 +2,7 @@
 
 mod compare;
 mod report;
+mod work;
 
 use std::path::Path;
 
@@ -18,6 +19,7 @@ use galpix_core::tally::Tally;
 
 pub use compare::compare;
 pub use report::{BudgetReport, FrameReport, PositionReport, RunReport, TruthReport};
+pub use work::work_gain;
 
 use crate::capture::{self, Capture, Census, ImportOptions};
 use crate::certificate::Certificate;
@@ -192,11 +194,16 @@ pub fn demand(update: &Update, frames: u32, request: &Request) -> Demand {
 /// *Errors:* a budget that cannot exist or that does not fit.
 pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) -> Result<RunReport, ExperimentError> {
     let update = source.update();
-    if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
+    if needs_luminosity(&update) {
         run_as::<Shaded>(source, &update, request, visit)
     } else {
         run_as::<Full>(source, &update, request, visit)
     }
+}
+
+/// Whether any galpixel of an update brightens or darkens.
+fn needs_luminosity(update: &Update) -> bool {
+    update.samples.iter().any(|sample| sample.luminosity_rate != 0.0)
 }
 
 fn run_as<L: Layout>(

@@ -178,10 +178,11 @@ macro_rules! rubbish_in {
         #[test]
         fn $test() {
             let Seen(seen) = same_on_rubbish::<$layout, $profile>();
-            assert!(seen.moved > 0 && seen.debris > 0 && seen.galdebris > 0 && seen.empty > 0, "{seen:?}");
+            assert!(seen.moved > 0 && seen.empty > 0, "{seen:?}");
             let lanes = <$layout as Layout>::LANES;
             if lanes.velocity {
-                assert!(seen.lost > 0 && seen.collided > 0 && seen.bullets > 0, "{seen:?}");
+                assert!(seen.lost > 0 && seen.collided > 0, "{seen:?}");
+                assert!(seen.bullets > 0 && seen.debris > 0 && seen.galdebris > 0, "{seen:?}");
             }
             assert_eq!(seen.saturated > 0, lanes.acceleration, "{seen:?}");
         }
