@@ -12,7 +12,7 @@ export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format clippy docs tests no-std codegen model proofs benches msrv firmware)
+STEPS=(format clippy docs tests no-std codegen constant-work model proofs benches msrv firmware)
 
 summary=() passed=0 failed=0 skipped=0
 
@@ -34,6 +34,15 @@ install_missing() {
             apt-get update -qq && apt-get install -y -qq --no-install-recommends g++ || echo "g++ could not be installed" >&2
         else
             echo "a C++ compiler is missing: install one, for example with: sudo apt-get install g++" >&2
+        fi
+    fi
+    if ! command -v valgrind >/dev/null; then
+        if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+            say "valgrind is missing: installing it"
+            apt-get update -qq && apt-get install -y -qq --no-install-recommends valgrind libc6-dbg ||
+                echo "valgrind could not be installed" >&2
+        else
+            echo "valgrind is missing: install it, for example with: sudo apt-get install valgrind" >&2
         fi
     fi
     for target in "${BARE_TARGETS[@]}" "${FIRMWARE_TARGETS[@]}"; do
@@ -120,6 +129,13 @@ step_benches() {
     cargo run --locked --profile bench -p galpix-core --example ratios -- 64x64 1
 }
 
+# The instructions of a frame, counted: with constant work they must not depend on the picture.
+step_constant-work() {
+    command -v valgrind >/dev/null || { skip "valgrind is not installed"; return; }
+    # The same profile and features as in the step before.
+    cargo run --locked --profile bench -p galpix-core --example constant_work -- 96x64
+}
+
 # Clippy has already compared every call into the standard library with rust-version; the language itself it does not know.
 step_msrv() {
     local least toolchain
@@ -157,7 +173,7 @@ run_step() {
     else
         word="passed" passed=$((passed + 1))
     fi
-    summary+=("$(printf '%-9s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
+    summary+=("$(printf '%-13s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
 }
 
 main() {

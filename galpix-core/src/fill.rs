@@ -70,6 +70,11 @@ impl Rung {
     pub const fn tells_surfaces(self) -> bool {
         matches!(self, Self::Bullet | Self::Galdebris | Self::Extend)
     }
+
+    /// Rounds of filling for a reach.
+    pub(crate) fn rounds(self, reach: u32) -> u32 {
+        if self.tells_surfaces() { reach.clamp(1, 16) } else { 1 }
+    }
 }
 
 /// Fills the holes of `back`, which was resolved from `front`; counts them into `tally`.
@@ -85,7 +90,7 @@ pub fn fill<L: Layout, B: Budget<L>>(
     reach: u32,
     tally: &mut Tally,
 ) {
-    let rounds = if rung.tells_surfaces() { reach.clamp(1, 16) } else { 1 };
+    let rounds = rung.rounds(reach);
     let mut filler = Filler { front, back, winners, edges, rung, tally, left: None, right: 0 };
     for round in 0..rounds {
         filler.round(round, round + 1 == rounds);
@@ -269,7 +274,7 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
 
 /// The signed fields that a mean is taken of, one after the other. Absent ones read 0 and ignore writes.
 #[inline(always)]
-fn each_moving_field(record: &Record, mut visit: impl FnMut(Field)) {
+pub(crate) fn each_moving_field(record: &Record, mut visit: impl FnMut(Field)) {
     visit(record.offset_x());
     visit(record.offset_y());
     visit(record.velocity(0));

@@ -1,5 +1,6 @@
 //! One frame: the stages in their order, and the swap.
 
+use crate::constant;
 use crate::edge;
 use crate::error::SetupError;
 use crate::fill::{Rung, fill};
@@ -9,6 +10,31 @@ use crate::layout::Layout;
 use crate::rounding::Rounding;
 use crate::sweep::sweep;
 use crate::tally::Tally;
+
+/// How much work a frame does. The mode changes no bit of a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Work {
+    /// What a picture does not need is skipped.
+    #[default]
+    Skipping,
+    /// The same instructions for every picture: a running time that is independent of the image, see [`crate::constant`].
+    Constant,
+}
+
+impl Work {
+    /// Both of them.
+    pub const ALL: [Self; 2] = [Self::Skipping, Self::Constant];
+
+    /// The name in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Skipping => "skipping",
+            Self::Constant => "constant",
+        }
+    }
+}
 
 /// What a frame is made with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +48,13 @@ pub struct Settings {
     pub edge_threshold: u32,
     /// Rounds of bullet filling, 1 to 16.
     pub reach: u32,
+    /// Whether work may depend on the picture.
+    pub work: Work,
 }
 
 impl Settings {
-    /// Low-discrepancy rounding, the richest rung, one round of bullet filling, and an edge threshold for depths of
-    /// `depth_bits` bits that are linear in inverse distance.
+    /// Low-discrepancy rounding, the richest rung, one round of bullet filling, an edge threshold for depths of `depth_bits`
+    /// bits that are linear in inverse distance, and skipping what a picture does not need.
     #[must_use]
     pub const fn for_depth(depth_bits: u32) -> Self {
         Self {
@@ -34,6 +62,7 @@ impl Settings {
             rung: Rung::Extend,
             edge_threshold: edge::threshold_for_depth(depth_bits),
             reach: 1,
+            work: Work::Skipping,
         }
     }
 }
@@ -131,8 +160,15 @@ pub fn step<L: Layout, B: Budget<L>>(
 ) -> Tally {
     let surfaces = settings.rung.tells_surfaces();
     let edges = if surfaces { edge::mark(front, settings.edge_threshold, scratch.edges) } else { 0 };
-    let mut tally = sweep(front, back, scratch.winners, settings.rounding, frame);
+    let (winners, rounding, rung, reach) = (&mut *scratch.winners, settings.rounding, settings.rung, settings.reach);
+    let mut tally = match settings.work {
+        Work::Skipping => sweep(front, back, winners, rounding, frame),
+        Work::Constant => constant::sweep(front, back, winners, rounding, frame),
+    };
     tally.edges = edges;
-    fill(front, back, scratch.winners, scratch.edges, settings.rung, settings.reach, &mut tally);
+    match settings.work {
+        Work::Skipping => fill(front, back, winners, scratch.edges, rung, reach, &mut tally),
+        Work::Constant => constant::fill(front, back, winners, scratch.edges, rung, reach, &mut tally),
+    }
     tally
 }

@@ -47,6 +47,9 @@ pub trait Profile {
 
 /// Where a map gets its stored form from: a profile fixed at compile time, or bits chosen at run time.
 pub trait Budget<L: Layout>: Copy {
+    /// Whether the stored form is known at compile time. Decides how the code is arranged, and no bit of a result.
+    const FIXED: bool = false;
+
     /// The stored form.
     fn record(&self) -> &Record;
 }
@@ -78,6 +81,8 @@ impl<P> Clone for Static<P> {
 impl<P> Copy for Static<P> {}
 
 impl<L: Layout, P: Profile> Budget<L> for Static<P> {
+    const FIXED: bool = true;
+
     #[inline(always)]
     fn record(&self) -> &Record {
         const { &<Self as Fixed<L>>::RECORD }

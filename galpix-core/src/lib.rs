@@ -12,7 +12,7 @@
 //! 4. [`fill`]: what is put where nothing arrived
 //! 5. [`scan_out`]: rows of colour for a display
 //!
-//! [`frame`] is their order. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
+//! [`frame`] is their order; in the mode of [`constant`] work the instructions of 2 and 4 do not depend on the picture. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
 //! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
 //! them with units.
 //!
@@ -55,6 +55,7 @@
 
 pub mod budget;
 pub mod colour;
+pub mod constant;
 pub mod edge;
 pub mod error;
 pub mod fill;

@@ -148,6 +148,9 @@ fn set_velocity<L: Layout, const CLAMP: bool>(
 #[inline(always)]
 fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
     use crate::colour::Colour;
+    if !record.luminosity_rate().present() {
+        return;
+    }
     let level = record.luminosity().unsigned(words) as i32 + record.luminosity_rate().signed(words);
     record.luminosity().set(words, level as u32);
     let colour = record.colour().unsigned(words);

@@ -81,6 +81,12 @@ impl Field {
         }
     }
 
+    /// The bits of the upper part in its word, the lowest of them, and how many bits spill.
+    #[inline(always)]
+    pub(crate) const fn upper_mask(self) -> (u32, u32, u32) {
+        (low_mask(self.upper_bits()) << self.shift, self.shift as u32, self.spill as u32)
+    }
+
     /// The field as an unsigned number.
     #[inline(always)]
     pub(crate) fn unsigned(self, words: &Words) -> u32 {

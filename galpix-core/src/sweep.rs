@@ -5,7 +5,12 @@
 //! what [`crate::propagate::arrivals`] and [`crate::resolve::settle`] define, bit by bit: in raster order an incumbent has
 //! the smaller source, so that comparing keys alone decides.
 //!
+//! A chunk that is all empty is skipped, and one that holds only what neither moves nor changes is stored as it is: its step
+//! would give the same words. The first galpixel of a chunk mostly tells that it is neither.
+//!
 //! Rows of the new map are cleared just before they are first needed, while the old map's neighbourhood is in the cache.
+
+mod planes;
 
 use core::ops::Range;
 
@@ -13,13 +18,17 @@ use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
 use crate::propagate::{advance, thresholds};
-use crate::record::MAX_WORDS;
+use crate::record::{MAX_WORDS, Record, Words};
 use crate::resolve::{self, NOBODY};
 use crate::rounding::Rounding;
 use crate::tally::Tally;
+use planes::Planes;
 
 /// Cells that are moved at once: enough for vector code, few enough to stay in the first cache.
 const CHUNK: usize = 64;
+
+/// Empty cells go a way of their own, and no galpixel does: no budget has velocities of 2^30.
+const NOWHERE: u32 = 30;
 
 /// Shorter runs go galpixel by galpixel.
 const SHORT_RUN: usize = 4;
@@ -33,6 +42,8 @@ struct Target<'t, 'p, L, B> {
     winners: &'t mut [u32],
     /// Cells before this one are cleared or hold arrivals.
     cleared: u32,
+    /// The bits that are 0 in what neither moves nor changes.
+    restless: Words,
     tally: Tally,
 }
 
@@ -40,8 +51,6 @@ struct Target<'t, 'p, L, B> {
 struct Chunk {
     /// `words[word][lane]`.
     words: [[u32; CHUNK]; MAX_WORDS],
-    /// The words before the step, at the end of a row.
-    rest: [[u32; CHUNK]; MAX_WORDS],
     keys: [u32; CHUNK],
     /// Cells moved.
     dx: [i32; CHUNK],
@@ -73,10 +82,10 @@ pub fn sweep<L: Layout, B: Budget<L>>(
         return Tally::default();
     }
     let thresholds = thresholds(front.record(), rounding, frame);
-    let mut target = Target { back, winners, cleared: 0, tally: Tally::default() };
+    let restless = restless(front.record());
+    let mut target = Target { back, winners, cleared: 0, restless, tally: Tally::default() };
     let mut chunk = Chunk {
         words: [[0; CHUNK]; MAX_WORDS],
-        rest: [[0; CHUNK]; MAX_WORDS],
         keys: [0; CHUNK],
         dx: [0; CHUNK],
         dy: [0; CHUNK],
@@ -87,17 +96,32 @@ pub fn sweep<L: Layout, B: Budget<L>>(
         y: 0,
         source: 0,
     };
+    // The words before the step, at the end of a row.
+    let mut rest = [[0; CHUNK]; MAX_WORDS];
     for (y, &start) in grid.starts().iter().enumerate() {
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(CHUNK as u32);
             (chunk.x, chunk.y, chunk.source) = (x as i32, y as i32, start + x);
-            target.take(front, &thresholds, &mut chunk, cells as usize);
+            target.take(front, &thresholds, &mut chunk, &mut rest, cells as usize);
             x += cells;
         }
     }
     target.clear_to(grid.cells());
     target.tally
+}
+
+/// All bits of velocities and accelerations, and the one of the class that empty cells and what was just unobscured have: where
+/// these are 0, a step changes nothing. Without them the position's threshold is dropped again, and the rest of the position
+/// is less than half a cell.
+fn restless(record: &Record) -> Words {
+    let mut restless = [0; MAX_WORDS];
+    for component in 0..3 {
+        record.velocity(component).set(&mut restless, u32::MAX);
+        record.acceleration(component).set(&mut restless, u32::MAX);
+    }
+    record.class().set(&mut restless, Class::Empty as u32 & Class::JustUnobscured as u32);
+    restless
 }
 
 /// The chunk of a plane that begins at `source`; where fewer than [`CHUNK`] cells are left of the row, their copy in `rest`.
@@ -113,6 +137,34 @@ fn lanes_of<'l>(plane: &'l [u32], source: u32, cells: usize, rest: &'l mut [u32;
         *to = from;
     }
     rest
+}
+
+/// The step of a chunk, galpixel by galpixel: by which bits fields of any of them strayed.
+#[inline(always)]
+fn step_lanes<L: Layout>(
+    record: &Record,
+    thresholds: &[i32; 3],
+    sources: &[&[u32; CHUNK]; MAX_WORDS],
+    chunk: &mut Chunk,
+) -> i32 {
+    let mut strayed = 0;
+    for lane in 0..CHUNK {
+        let mut words = [0; MAX_WORDS];
+        for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
+            *word = lanes[lane];
+        }
+        let step = advance::<L, false>(record, thresholds, &mut words);
+        for (word, lanes) in words.iter().zip(&mut chunk.words).take(record.words()) {
+            lanes[lane] = *word;
+        }
+        let key = resolve::key(record, &words);
+        chunk.keys[lane] = key;
+        strayed |= step.strayed[0] | step.strayed[1] | step.strayed[2] | step.strayed[3];
+        let empty = (key >> record.depth().bits == Class::Empty as u32) as i32;
+        chunk.dx[lane] = step.dx ^ (empty << NOWHERE);
+        chunk.dy[lane] = step.dy;
+    }
+    strayed
 }
 
 /// `lanes` moved up by one lane; the first stays.
@@ -135,30 +187,37 @@ fn straight(turns: &[i32]) -> usize {
 impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
     /// Takes the galpixels of the `cells` cells from where `chunk` stands.
     #[inline(always)]
-    fn take(&mut self, front: &Galpixmap<'_, L, B>, thresholds: &[i32; 3], chunk: &mut Chunk, cells: usize) {
+    fn take(
+        &mut self,
+        front: &Galpixmap<'_, L, B>,
+        thresholds: &[i32; 3],
+        chunk: &mut Chunk,
+        rest: &mut [[u32; CHUNK]; MAX_WORDS],
+        cells: usize,
+    ) {
         let record = front.record();
         let mut sources = [&[0; CHUNK]; MAX_WORDS];
-        for ((lanes, plane), rest) in sources.iter_mut().zip(front.planes()).zip(&mut chunk.rest).take(record.words()) {
+        for ((lanes, plane), rest) in sources.iter_mut().zip(front.planes()).zip(rest).take(record.words()) {
             *lanes = lanes_of(plane, chunk.source, cells, rest);
         }
-        let mut strayed = 0;
-        for lane in 0..CHUNK {
-            let mut words = [0; MAX_WORDS];
-            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
-                *word = lanes[lane];
+        if front.class(chunk.source) == Class::Empty {
+            let source = chunk.source as usize;
+            if front.all_empty(source..source + cells) {
+                return;
             }
-            let step = advance::<L, false>(record, thresholds, &mut words);
-            for (word, lanes) in words.iter().zip(&mut chunk.words).take(record.words()) {
-                lanes[lane] = *word;
-            }
-            let key = resolve::key(record, &words);
-            chunk.keys[lane] = key;
-            strayed |= step.strayed[0] | step.strayed[1] | step.strayed[2] | step.strayed[3];
-            // Empty cells go a way of their own: no budget has velocities of 2^30.
-            let empty = (key >> record.depth().bits == Class::Empty as u32) as i32;
-            chunk.dx[lane] = step.dx ^ (empty << 30);
-            chunk.dy[lane] = step.dy;
+        } else if self.rests(record, &sources, cells) {
+            self.store_resting(record, &sources, chunk, cells);
+            return;
         }
+        let strayed = if B::FIXED {
+            step_lanes::<L>(record, thresholds, &sources, chunk)
+        } else {
+            for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
+                *to = *from;
+            }
+            let Chunk { words, dx, dy, keys, .. } = chunk;
+            Planes::new(record, thresholds, words).step::<L>(dx, dy, keys)
+        };
         if strayed != 0 {
             self.retake(front, thresholds, chunk, cells);
         }
@@ -172,6 +231,42 @@ impl<L: Layout, B: Budget<L>> Target<'_, '_, L, B> {
         } else {
             self.store_runs(chunk, cells);
         }
+    }
+
+    /// Whether a step changes nothing in a chunk.
+    #[inline(always)]
+    fn rests(&self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], cells: usize) -> bool {
+        // A colour format of one's own need not leave a colour alone that is brightened by nothing.
+        if L::LANES.luminosity && record.luminosity_rate().present() {
+            return false;
+        }
+        let restless = |cells: usize| {
+            let words = sources.iter().zip(self.restless).take(record.words());
+            words.fold(0, |any, (lanes, bits)| any | lanes.iter().take(cells).fold(0, |any, lane| any | lane) & bits)
+        };
+        restless(1) == 0 && restless(cells) == 0
+    }
+
+    /// Stores a chunk in which a step changes nothing.
+    fn store_resting(
+        &mut self,
+        record: &Record,
+        sources: &[&[u32; CHUNK]; MAX_WORDS],
+        chunk: &mut Chunk,
+        cells: usize,
+    ) {
+        for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
+            *to = **from;
+        }
+        for lane in 0..CHUNK {
+            let mut words = [0; MAX_WORDS];
+            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
+                *word = lanes[lane];
+            }
+            chunk.keys[lane] = resolve::key(record, &words);
+        }
+        (chunk.dx[0], chunk.dy[0]) = (0, 0);
+        self.store_run(chunk, 0..cells);
     }
 
     /// Stores a run of lanes that go the same way, unless that is nowhere.

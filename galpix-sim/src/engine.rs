@@ -1,7 +1,8 @@
 //! The engine over memory of the host: one update in, frames out, with what is needed to judge them.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use fixed::types::I32F32;
 use galpix_core::budget::Bits;
 use galpix_core::error::{BudgetError, SetupError};
@@ -48,7 +49,7 @@ pub struct Frame<'f, L> {
     pub number: u32,
     /// What the engine counted; all zero for the update itself.
     pub tally: Tally,
-    /// The time of the engine's own work.
+    /// The processor time of the engine's own work: what else runs on the machine does not count.
     pub time: Duration,
     map: &'f Galpixmap<'f, L, Chosen<L>>,
     origins: &'f [u32],
@@ -105,7 +106,7 @@ impl<L: Layout> Engine<L> {
         let no_time = Duration::ZERO;
         visit(&Frame { number: 0, tally: Tally::default(), time: no_time, map: controller.front(), origins: &origins });
         for number in 1..=frames {
-            let started = Instant::now();
+            let started = ThreadTime::now();
             let tally = controller.step(&self.settings);
             let time = started.elapsed();
             origins = follow(&controller, &origins);

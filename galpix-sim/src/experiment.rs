@@ -2,6 +2,7 @@
 
 mod compare;
 mod report;
+mod work;
 
 use std::path::Path;
 
@@ -10,7 +11,7 @@ use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::BudgetError;
 use galpix_core::fill::Rung;
-use galpix_core::frame::Settings;
+use galpix_core::frame::{Settings, Work};
 use galpix_core::layout::{Full, Layout, Shaded};
 use galpix_core::record::Record;
 use galpix_core::rounding::Rounding;
@@ -19,6 +20,7 @@ use galpix_core::tally::Tally;
 pub use compare::compare;
 pub(crate) use compare::position;
 pub use report::{BudgetReport, FrameReport, PositionReport, RunReport, TruthReport};
+pub use work::work_gain;
 
 use crate::capture::{self, Capture, Census, ImportOptions};
 use crate::certificate::Certificate;
@@ -193,11 +195,16 @@ pub fn demand(update: &Update, frames: u32, request: &Request) -> Demand {
 /// *Errors:* a budget that cannot exist or that does not fit.
 pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) -> Result<RunReport, ExperimentError> {
     let update = source.update();
-    if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
+    if needs_luminosity(&update) {
         run_as::<Shaded>(source, &update, request, visit)
     } else {
         run_as::<Full>(source, &update, request, visit)
     }
+}
+
+/// Whether any galpixel of an update brightens or darkens.
+fn needs_luminosity(update: &Update) -> bool {
+    update.samples.iter().any(|sample| sample.luminosity_rate != 0.0)
 }
 
 fn run_as<L: Layout>(
@@ -251,7 +258,13 @@ pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request
     };
     let edge_threshold =
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
-    Settings { rounding: request.rounding, rung: request.fill, edge_threshold, reach: request.reach }
+    Settings {
+        rounding: request.rounding,
+        rung: request.fill,
+        edge_threshold,
+        reach: request.reach,
+        work: Work::default(),
+    }
 }
 
 fn report<L: Layout>(

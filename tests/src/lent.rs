@@ -1,7 +1,7 @@
 //! Memory for maps: owned here, lent to the engine for the time of a closure.
 
 use galpix_core::edge;
-use galpix_core::frame::{Controller, Scratch};
+use galpix_core::frame::{Controller, Scratch, Settings};
 use galpix_core::galpixel::Budget;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
@@ -138,4 +138,25 @@ impl Trace {
             }
         }
     }
+}
+
+/// What each of `frames` frames leaves behind, from a map that holds `content`.
+///
+/// Panics if the maps cannot be set up.
+#[must_use]
+pub fn traces<L: Layout, B: Budget<L>>(
+    shape: Shape,
+    budget: B,
+    content: &[u32],
+    settings: &Settings,
+    frames: u32,
+) -> Vec<Trace> {
+    with_controller::<L, B, _>(shape, budget, Some(content), |controller| {
+        (0..frames)
+            .map(|_| {
+                let tally = controller.step(settings);
+                Trace::of(controller, tally)
+            })
+            .collect()
+    })
 }

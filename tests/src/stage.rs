@@ -1,16 +1,18 @@
 //! The built-in scenes as maps.
 
 use fixed::types::I32F32;
+use galpix_core::fill::Rung;
 use galpix_core::frame::Settings;
 use galpix_core::galpixel::{Budget, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::Wings;
 use galpix_core::layout::Layout;
+use galpix_core::rounding::Rounding;
 use galpix_sim::engine::galpixel;
 use galpix_sim::scene::{self, Scene};
 use galpix_sim::update::Update;
 
-use crate::lent::Shape;
+use crate::lent::{Shape, with_maps, words};
 
 /// The update of a scene at its beginning, and the shape of its maps.
 pub struct Stage {
@@ -38,6 +40,14 @@ pub fn all() -> impl Iterator<Item = Stage> {
 }
 
 impl Stage {
+    /// The words of the update, each galpixel after `change`, in a layout.
+    pub fn content<L: Layout, B: Budget<L>>(&self, budget: B, change: impl Fn(&mut Galpixel)) -> Vec<u32> {
+        with_maps::<L, B, _>(self.shape, budget, None, |mut front, _| {
+            self.load(&mut front, change);
+            words(&front)
+        })
+    }
+
     /// Stores the update, each galpixel after `change`.
     pub fn load<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>, change: impl Fn(&mut Galpixel)) {
         for (y, row) in (0..).zip(self.update.samples.chunks(self.update.width)) {
@@ -48,6 +58,16 @@ impl Stage {
             }
         }
     }
+}
+
+/// Every rung, and a rounding with each: over three turns, every rung with every rounding.
+pub fn settings_in_turn(turn: usize, depth_bits: u8) -> impl Iterator<Item = Settings> {
+    (turn..).zip(Rung::ALL).map(move |(turn, rung)| {
+        let rounding = Rounding::ALL[turn % Rounding::ALL.len()];
+        // More rounds of bullet filling for one of the roundings.
+        let reach = if rounding == Rounding::Nearest { 3 } else { 1 };
+        Settings { rounding, rung, reach, ..Settings::for_depth(depth_bits.into()) }
+    })
 }
 
 /// The settings for a map's own depth.

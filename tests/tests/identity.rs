@@ -2,49 +2,27 @@
 //! absent and one that is fed with zeros.
 
 use fixed::types::I32F32;
-use galpix_core::fill::Rung;
 use galpix_core::frame::Settings;
 use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel, Profile, Static};
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Still, Tagged, Velocity565, VelocityGray4, VelocityGray8};
-use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 use galpix_tests::layouts::{
     Flat565WithoutDepth, ShadedWithoutAcceleration, ShadedWithoutDepthMotion, ShadedWithoutLuminosity,
     ShadedWithoutTag, Velocity565WithoutVelocity,
 };
-use galpix_tests::lent::{Shape, Trace, with_controller, with_maps, words};
+use galpix_tests::lent::{self, Shape, Trace, with_controller};
 use galpix_tests::profiles::{Odd, Panel, Paper, Scene, Slide, Uneven};
-use galpix_tests::stage::{self, Stage};
+use galpix_tests::stage::{self, Stage, settings_in_turn as settings};
 
 const FRAMES: u32 = 8;
 
 /// The words of a stage in a layout.
 fn content<L: Layout, B: Budget<L>>(stage: &Stage, budget: B, change: impl Fn(&mut Galpixel)) -> Vec<u32> {
-    with_maps(stage.shape, budget, None, |mut front, _| {
-        stage.load(&mut front, change);
-        words(&front)
-    })
+    stage.content::<L, B>(budget, change)
 }
 
 fn traces<L: Layout, B: Budget<L>>(shape: Shape, budget: B, content: &[u32], settings: &Settings) -> Vec<Trace> {
-    with_controller(shape, budget, Some(content), |controller| {
-        (0..FRAMES)
-            .map(|_| {
-                let tally = controller.step(settings);
-                Trace::of(controller, tally)
-            })
-            .collect()
-    })
-}
-
-/// Every rung, and a rounding with each: over three scenes in turn, every rung with every rounding.
-fn settings(turn: usize, depth_bits: u8) -> impl Iterator<Item = Settings> {
-    (turn..).zip(Rung::ALL).map(move |(turn, rung)| {
-        let rounding = Rounding::ALL[turn % Rounding::ALL.len()];
-        // More rounds of bullet filling for one of the roundings.
-        let reach = if rounding == Rounding::Nearest { 3 } else { 1 };
-        Settings { rounding, rung, reach, ..Settings::for_depth(depth_bits.into()) }
-    })
+    lent::traces::<L, B>(shape, budget, content, settings, FRAMES)
 }
 
 /// All planes, tallies, winners and edges, on all scenes, rungs and roundings.

@@ -3,7 +3,7 @@
 use fixed::types::I32F32;
 use galpix_core::budget::Bits;
 use galpix_core::fill::{FILLED, Rung};
-use galpix_core::frame::{Controller, Settings, step};
+use galpix_core::frame::{Controller, Settings, Work, step};
 use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel, Profile};
 use galpix_core::grid::Wings;
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Still, Velocity565, VelocityGray4};
@@ -33,11 +33,13 @@ fn any_settings() -> impl Strategy<Value = Settings> {
     let rung = prop::sample::select(&Rung::ALL[..]);
     let rounding = prop::sample::select(&Rounding::ALL[..]);
     let threshold = prop_oneof![Just(0u32), Just(u32::MAX), 0..1u32 << 20];
-    (rung, rounding, threshold, 0..20u32).prop_map(|(rung, rounding, edge_threshold, reach)| Settings {
+    let work = prop::sample::select(&Work::ALL[..]);
+    (rung, rounding, threshold, 0..20u32, work).prop_map(|(rung, rounding, edge_threshold, reach, work)| Settings {
         rounding,
         rung,
         edge_threshold,
         reach,
+        work,
     })
 }
 

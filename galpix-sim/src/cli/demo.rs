@@ -22,6 +22,9 @@ const FRAME_MS: u16 = 120;
 /// A film may be this large before its colours are counted.
 const FILM_BYTES: usize = 1_000_000;
 
+/// Frames of each scene that are made once more in both modes of work, to say what skipping saves.
+const FRAMES_FOR_GAIN: u32 = 5;
+
 /// Arguments of `galpix demo`.
 #[derive(Debug, Args)]
 pub struct Demo {
@@ -48,7 +51,7 @@ impl Demo {
         std::fs::create_dir_all(&self.out).map_err(|error| CliError::unwritable(&self.out, &error))?;
         let frames: u64 = sources.iter().map(|source| u64::from(request.frames.unwrap_or(source.frames())) + 1).sum();
         let bar = progress::bar(frames, "demo");
-        let told: Vec<(RunReport, Story)> = sources
+        let told: Vec<Told> = sources
             .par_iter()
             .map(|source| tell(source, &request, &bar))
             .collect::<Result<_, _>>()
@@ -72,7 +75,7 @@ impl Demo {
                 ("ns a galpixel".to_owned(), "a budget chosen at run time, scenes side by side".to_owned()),
                 ("Time".to_owned(), format!("{:.1} s", started.elapsed().as_secs_f64())),
             ],
-            stories: told.into_iter().map(|(_, story)| story).collect(),
+            stories: told.into_iter().map(|told| told.story).collect(),
         });
         let path = self.out.join("report.html");
         report::write_atomically(&path, page.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
@@ -93,18 +96,26 @@ fn sources() -> Vec<Source> {
     sources
 }
 
+/// A source after its run.
+struct Told {
+    run: RunReport,
+    story: Story,
+    /// The time of a frame with constant work by that of one that skips.
+    gain: f64,
+}
+
 /// Runs a source and makes its story.
-fn tell(
-    source: &Source,
-    request: &Request,
-    bar: &indicatif::ProgressBar,
-) -> Result<(RunReport, Story), experiment::ExperimentError> {
+fn tell(source: &Source, request: &Request, bar: &indicatif::ProgressBar) -> Result<Told, experiment::ExperimentError> {
     let mut pictures = Vec::new();
     let run = experiment::run(source, request, |shown| {
         pictures.extend(panels(shown));
         bar.inc(1);
     })?;
-    let mut notes = Vec::new();
+    let gain = experiment::work_gain(source, request, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?;
+    let mut notes = vec![format!(
+        "Constant work, the mode whose instructions do not depend on the picture, takes {gain:.1} times as long as a frame that \
+         skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."
+    )];
     if run.loaded.saturated > 0 {
         notes.push(format!("{} fields of the update were clamped to their range.", run.loaded.saturated));
     }
@@ -141,7 +152,7 @@ fn tell(
         rows: run.frames.iter().map(row).collect(),
         notes,
     };
-    Ok((run, story))
+    Ok(Told { run, story, gain })
 }
 
 fn budget_line(run: &RunReport) -> String {
@@ -195,12 +206,22 @@ fn row(frame: &FrameReport) -> Row {
 }
 
 /// A line for each scene: means over the frames whose truth is known, and the worst position error of all frames.
-fn table(told: &[(RunReport, Story)]) -> Vec<String> {
+fn table(told: &[Told]) -> Vec<String> {
     let mut lines = vec![format!(
-        "{:<16} {:>6} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>8} {:>7}",
-        "scene", "frames", "galpix dB", "hold dB", "known dB", "worst px", "bound px", "truth px", "holes %", "ns/gal"
+        "{:<16} {:>6} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>8} {:>7} {:>7}",
+        "scene",
+        "frames",
+        "galpix dB",
+        "hold dB",
+        "known dB",
+        "worst px",
+        "bound px",
+        "truth px",
+        "holes %",
+        "ns/gal",
+        "x const"
     )];
-    for (run, _) in told {
+    for Told { run, gain, .. } in told {
         let truths: Vec<_> = run.frames.iter().filter_map(|frame| frame.truth).collect();
         let decibels = |column: fn(&TruthReport) -> Option<f64>| {
             let values: Vec<f64> = truths.iter().filter_map(column).collect();
@@ -211,7 +232,7 @@ fn table(told: &[(RunReport, Story)]) -> Vec<String> {
         };
         let cells = (run.width * run.height * run.frames.len()).max(1) as f64;
         lines.push(format!(
-            "{:<16} {:>6} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>8.2} {:>7.1}",
+            "{:<16} {:>6} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>8.2} {:>7.1} {:>7.1}",
             run.source,
             run.frames.len(),
             decibels(|truth| truth.psnr_db),
@@ -221,12 +242,13 @@ fn table(told: &[(RunReport, Story)]) -> Vec<String> {
             number(run.certificate.after(run.frames.len() as u32), 4),
             worst(|position| position.truth_worst_px),
             100.0 * run.frames.iter().map(|frame| f64::from(frame.holes)).sum::<f64>() / cells,
-            run.ns_per_galpixel
+            run.ns_per_galpixel,
+            gain
         ));
     }
     lines.push(
         "dB: mean over the frames whose truth is known. worst px: from the exact second-order path, bounded by bound px; \
-         truth px: from the true motion."
+         truth px: from the true motion. x const: a frame with constant work by one that skips."
             .to_owned(),
     );
     lines

@@ -7,7 +7,7 @@
 #![no_std]
 
 use galpix_core::budget::{Bits, Demand};
-use galpix_core::frame::{self, Scratch, Settings};
+use galpix_core::frame::{self, Scratch, Settings, Work};
 use galpix_core::galpixel::{Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::layout::{Flat565, Full, Shaded, Velocity565, VelocityGray4};
@@ -34,7 +34,8 @@ impl Profile for PanelVelocity {
 }
 
 macro_rules! proofs {
-    ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $scan_out:ident;)*) => {$(
+    ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
+        $scan_out:ident;)*) => {$(
         /// Propagation and resolution.
         #[unsafe(no_mangle)]
         pub fn $sweep(
@@ -77,6 +78,18 @@ macro_rules! proofs {
             frame::step(front, back, scratch, settings, frame)
         }
 
+        /// A whole frame with constant work.
+        #[unsafe(no_mangle)]
+        pub fn $constant(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
+            scratch: &mut Scratch<'_>,
+            settings: &Settings,
+            frame: u32,
+        ) -> Tally {
+            frame::step(front, back, scratch, &Settings { work: Work::Constant, ..*settings }, frame)
+        }
+
         /// A row for a display of 16-bit words.
         #[unsafe(no_mangle)]
         pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
@@ -88,14 +101,14 @@ macro_rules! proofs {
 }
 
 proofs! {
-    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_scan_out_full;
-    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_scan_out_shaded;
-    Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565,
+    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full;
+    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded;
+    Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
         proof_scan_out_flat565;
     Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
-        proof_step_velocity565, proof_scan_out_velocity565;
+        proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565;
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
-        proof_step_velocity_gray4, proof_scan_out_velocity_gray4;
+        proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4;
 }
 
 mod planted {

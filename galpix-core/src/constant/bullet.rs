@@ -1,0 +1,160 @@
+//! What a bullet hole would take, asked of every cell: a mean of four cells in every case.
+//!
+//! The mean of four is `(a + b + c + d + 2) >> 2`. With the four `p, p, q, q` it is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`,
+//! the mean of two; with `p, p, p, p` it is `(4p + 2) >> 2 = p`. So one way of calculating does for one, two and four
+//! neighbours, bit by bit. The sum of four fields of 30 bits stays within 32.
+
+use super::{below, choose, negative, opaque};
+use crate::colour::Colour;
+use crate::edge::on_edge;
+use crate::fill::{FILLED, each_moving_field};
+use crate::galpixel::Budget;
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::record::Words;
+use crate::resolve::NOBODY;
+
+/// What is known of the cells around.
+pub(super) struct Surroundings<'s, 'p, L, B> {
+    pub back: &'s Galpixmap<'p, L, B>,
+    pub winners: &'s [u32],
+    pub edges: &'s [u32],
+    pub round: u32,
+}
+
+/// A place beside a cell: the cell there, or the cell itself beyond the border, and all ones if it is on the map.
+#[derive(Clone, Copy)]
+struct Place {
+    cell: u32,
+    exists: u32,
+}
+
+/// Which cells a mean is taken of.
+struct Chosen {
+    first: u32,
+    second: u32,
+    /// The third and the fourth of four; else the first and the second again.
+    third: u32,
+    fourth: u32,
+    /// All ones if there are four.
+    four: u32,
+    /// All ones if there is but one.
+    one: u32,
+    /// All ones if there is any.
+    any: u32,
+}
+
+impl Place {
+    #[inline(always)]
+    fn choose(mask: u32, a: Self, b: Self) -> Self {
+        Self { cell: choose(mask, a.cell, b.cell), exists: choose(mask, a.exists, b.exists) }
+    }
+}
+
+/// Of the neighbours `a` and `b`, `c` and `d`, that face each other: all four; else two that face each other; else the two
+/// there are; else the one there is. `inside` has all ones for those that count.
+#[inline(always)]
+fn chosen(cells: [u32; 4], inside: [u32; 4]) -> Chosen {
+    let ([a, b, c, d], [in_a, in_b, in_c, in_d]) = (cells, inside);
+    let (a_and_b, c_and_d) = (in_a & in_b, in_c & in_d);
+    let (a_or_b, c_or_d) = (in_a | in_b, in_c | in_d);
+    let (p, q) = (choose(in_a, a, b), choose(in_c, c, d));
+    let first = choose(a_and_b, a, choose(c_and_d, c, choose(a_or_b, p, q)));
+    let second = choose(a_and_b, b, choose(c_and_d, d, choose(c_or_d, q, p)));
+    let four = a_and_b & c_and_d;
+    Chosen {
+        first,
+        second,
+        third: choose(four, c, first),
+        fourth: choose(four, d, second),
+        four,
+        one: !(a_and_b | c_and_d | a_or_b & c_or_d),
+        any: a_or_b | c_or_d,
+    }
+}
+
+impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
+    /// The mean of the neighbours that lie inside a surface, and all ones if there are any; rubbish and 0 if there are none.
+    #[inline(always)]
+    pub fn mean(&self, x: i32, y: i32, cell: u32) -> (Words, u32) {
+        let grid = self.back.grid();
+        let column = |x: i32| negative(x - grid.width() as i32) & !negative(x);
+        // Above the first and below the last row: the row itself.
+        let row = |y: i32| grid.row(y).map_or((cell.wrapping_sub(x as u32), 0), |row| (row, u32::MAX));
+        let (left, right) = (column(x - 1), column(x + 1));
+        let rows = [row(y - 1), row(y), row(y + 1)];
+        let place = |dx: i32, column: u32, (row, exists): (u32, u32)| Place {
+            cell: row.wrapping_add((x + (dx & column as i32)) as u32),
+            exists: exists & column,
+        };
+        let here = u32::MAX;
+        let sides =
+            [place(-1, left, rows[1]), place(1, right, rows[1]), place(0, here, rows[0]), place(0, here, rows[2])];
+        let corners =
+            [place(-1, left, rows[0]), place(1, right, rows[2]), place(1, right, rows[0]), place(-1, left, rows[2])];
+        // A vacant place is not inside a surface: where all sides are vacant, the corners count, and else the sides.
+        let crossing = sides.iter().fold(u32::MAX, |all, &side| all & self.vacant(side));
+        let mut cells = [0; 4];
+        let mut inside = [0; 4];
+        for ((to, inside), (&corner, &side)) in cells.iter_mut().zip(&mut inside).zip(corners.iter().zip(&sides)) {
+            let place = Place::choose(crossing, corner, side);
+            (*to, *inside) = (place.cell, self.inside(place));
+        }
+        let chosen = chosen(cells, inside);
+        (self.mean_of(&chosen), chosen.any)
+    }
+
+    /// Who won the cell at a place; nobody beyond the border.
+    #[inline(always)]
+    fn winner(&self, place: Place) -> u32 {
+        let winner = self.winners.get(place.cell as usize).copied().unwrap_or(NOBODY);
+        winner | !place.exists
+    }
+
+    /// All ones for the winner of a cell that was filled in an earlier round, else 0.
+    #[inline(always)]
+    fn filled_before(&self, winner: u32) -> u32 {
+        const { assert!(FILLED == 1 << 31) }
+        negative(winner as i32) & below(winner & !FILLED, self.round)
+    }
+
+    /// All ones if there was nothing at a place when this round began, else 0.
+    #[inline(always)]
+    fn vacant(&self, place: Place) -> u32 {
+        let winner = self.winner(place);
+        negative(winner as i32) & !self.filled_before(winner)
+    }
+
+    /// All ones if what a place holds came from inside of a surface, or is a bullet fill of an earlier round, else 0.
+    #[inline(always)]
+    fn inside(&self, place: Place) -> u32 {
+        let winner = self.winner(place);
+        let filled = opaque(negative(winner as i32));
+        let on_edge = (on_edge(self.edges, winner & !filled) as u32).wrapping_neg();
+        let galpixel = below(self.back.class(place.cell) as u32, 1);
+        galpixel & choose(filled, self.filled_before(winner), !on_edge)
+    }
+
+    /// The mean of four cells, field by field, halves upwards; tag and fraction of the luminosity from the first.
+    #[inline(always)]
+    fn mean_of(&self, chosen: &Chosen) -> Words {
+        let record = self.back.record();
+        let words = |cell: u32| self.back.words_at(cell).unwrap_or_default();
+        let [a, b, c, d] = [chosen.first, chosen.second, chosen.third, chosen.fourth].map(words);
+        let mut mean = a;
+        each_moving_field(record, |field| {
+            let sum = field.signed(&a) + field.signed(&b) + field.signed(&c) + field.signed(&d);
+            field.set(&mut mean, ((sum + 2) >> 2) as u32);
+        });
+        let depth = record.depth();
+        let sum = depth.unsigned(&a) + depth.unsigned(&b) + depth.unsigned(&c) + depth.unsigned(&d);
+        depth.set(&mut mean, (sum + 2) >> 2);
+        // A colour format of one's own may have its own idea of a mean of two, and bits that are in no channel.
+        let colour = record.colour();
+        let colours = [&a, &b, &c, &d].map(|words| colour.unsigned(words));
+        let two = L::Colour::mean2([colours[0], colours[1]]);
+        let several = choose(chosen.four, L::Colour::mean4(colours), two);
+        colour.set(&mut mean, choose(chosen.one, colours[0], several));
+        mean
+    }
+}

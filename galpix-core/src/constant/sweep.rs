@@ -1,0 +1,70 @@
+//! Propagation and resolution, cell by cell in raster order: every galpixel, also one that is not there, challenges one cell.
+
+use super::{below, empty, merge, merge_word, negative};
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::propagate::{advance, thresholds};
+use crate::record::Words;
+use crate::resolve::{self, NOBODY};
+use crate::rounding::Rounding;
+use crate::tally::Tally;
+
+/// [`crate::sweep::sweep`] with constant work: the same arguments, the same bits.
+///
+/// Cells that nothing reached are empty and black, and their winner is [`NOBODY`].
+pub fn sweep<L: Layout, B: Budget<L>>(
+    front: &Galpixmap<'_, L, B>,
+    back: &mut Galpixmap<'_, L, B>,
+    winners: &mut [u32],
+    rounding: Rounding,
+    frame: u32,
+) -> Tally {
+    let grid = *front.grid();
+    if grid != *back.grid() {
+        return Tally::default();
+    }
+    clear(back, winners);
+    let record = front.record();
+    let thresholds = thresholds(record, rounding, frame);
+    let mut tally = Tally::default();
+    for (y, &start) in (0..).zip(grid.starts()) {
+        for (x, source) in (0..grid.width() as i32).zip(start..) {
+            let mut words = front.words_at(source).unwrap_or_default();
+            let step = advance::<L, true>(record, &thresholds, &mut words);
+            let key = resolve::key(record, &words);
+            let there = !empty(front.class_of(key));
+            let (to_x, to_y) = (x + step.dx, y + step.dy);
+            let beyond = negative(to_x)
+                | negative(to_y)
+                | !negative(to_x - grid.width() as i32)
+                | !negative(to_y - grid.height() as i32);
+            // In raster order the incumbent has the smaller source: of equal keys it stays.
+            let cell = grid.row(to_y & !beyond as i32).unwrap_or(0) + (to_x & !beyond as i32) as u32;
+            let incumbent = back.key_at(cell).unwrap_or(0);
+            let challenges = there & !beyond;
+            let wins = challenges & below(key, incumbent);
+            merge(back, cell, &words, wins);
+            merge_word(winners, cell, source, wins);
+            tally.moved += there & 1;
+            tally.lost += there & beyond & 1;
+            tally.collided += challenges & !empty(back.class_of(incumbent)) & 1;
+            tally.saturated += step.saturated() & there;
+        }
+    }
+    tally
+}
+
+/// Makes all cells empty and nobody their winner.
+fn clear<L: Layout, B: Budget<L>>(back: &mut Galpixmap<'_, L, B>, winners: &mut [u32]) {
+    let record = *back.record();
+    let cells = back.grid().cells() as usize;
+    let mut empty: Words = Default::default();
+    record.class().set(&mut empty, Class::Empty as u32);
+    for (plane, word) in back.planes_mut().iter_mut().zip(empty).take(record.words()) {
+        plane.fill(word);
+    }
+    if let Some(winners) = winners.get_mut(..cells) {
+        winners.fill(NOBODY);
+    }
+}
