@@ -3,6 +3,7 @@
 mod budget;
 mod choices;
 mod demo;
+mod error;
 mod run;
 mod scenes;
 
@@ -57,6 +58,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Error against run time over budgets, lanes, roundings and rungs: tables, plots, the Pareto front
+    Error(error::Error),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Lists the built-in scenes and what each of them stresses
@@ -73,6 +76,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Error(error) => error.run(),
         Command::Budget(budget) => budget.run(),
         Command::Scenes(scenes) => scenes.run(),
     };
@@ -112,6 +116,11 @@ fn say(text: &str) {
 /// A text from outside without the characters that command a terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// The same for a text of several lines.
+fn printable_lines(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
 }
 
 /// Refuses a budget that cannot exist, before a folder is made for it.

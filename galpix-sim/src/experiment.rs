@@ -241,7 +241,8 @@ fn run_as<L: Layout>(
     })
 }
 
-fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
+/// How the frames of an update are made under a record.
+pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
     let depth_bits = u32::from(record.depth().bits);
     let by_kind = match depth_kind {
         DepthKind::Z | DepthKind::Disparity => edge::threshold_for_depth(depth_bits),

@@ -16,4 +16,5 @@ pub mod picture;
 pub mod progress;
 pub mod report;
 pub mod scene;
+pub mod tradeoff;
 pub mod update;
