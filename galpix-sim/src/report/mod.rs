@@ -8,14 +8,18 @@
 //!                     └─▶ story (film, certificate, table) ─▶ figures (which lines) ─▶ plot (SVG)
 //! ```
 
+pub(crate) mod axis;
+mod canvas;
 mod figures;
 mod overview;
 mod page;
 mod plot;
 mod save;
+pub(crate) mod scatter;
+pub(crate) mod stack;
 mod story;
-mod style;
-mod text;
+pub(crate) mod style;
+pub(crate) mod text;
 
 pub use page::{document, html};
 pub use save::write_atomically;

@@ -1,11 +1,10 @@
-//! One plot as inline SVG: lines over frames. The only place that knows `plotters`.
+//! One plot as inline SVG: lines over frames.
 
+use super::canvas::{FINE, colour, element, pen};
 use super::style::Ink;
-use super::text::{Text, figure};
+use super::text::figure;
 use plotters::prelude::*;
 
-/// Units of the drawing for each unit of the page: `plotters` places in whole units.
-const FINE: u32 = 4;
 const WIDTH: u32 = 380;
 const HEIGHT: u32 = 236;
 /// Above this many points a line carries no dots.
@@ -63,14 +62,7 @@ pub fn svg(plot: &Plot) -> Option<String> {
     let values = value_range(plot)?;
     let mut drawing = String::new();
     draw(plot, frames, values, &mut drawing).ok()?;
-    // its own opening tag instead of the backend's, which fixes a size and names a namespace that HTML does not need
-    let body = drawing.split_once('>')?.1;
-    Some(format!(
-        "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{body}",
-        WIDTH * FINE,
-        HEIGHT * FINE,
-        Text(&plot.description)
-    ))
+    element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
 /// First and last frame, never the same.
@@ -137,15 +129,6 @@ fn draw(plot: &Plot, frames: std::ops::Range<u32>, values: std::ops::Range<f64>,
     root.present()?;
     drop(chart);
     Ok(())
-}
-
-fn colour(ink: Ink) -> RGBColor {
-    let [r, g, b] = ink.light();
-    RGBColor(r, g, b)
-}
-
-fn pen(ink: Ink, width: u32) -> ShapeStyle {
-    colour(ink).stroke_width(width * FINE)
 }
 
 /// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5 times

@@ -12,6 +12,7 @@
 pub mod causes;
 pub mod csv;
 pub mod design;
+mod figures;
 pub mod float;
 pub mod measure;
 pub mod page;
@@ -63,6 +64,8 @@ pub enum Work {
 
 /// Cells that are timed in a round, for one configuration.
 const TIMED_CELLS: usize = 1_500_000;
+/// From so many cells on, a source is measured sparingly unless more is asked for.
+const LARGE: usize = 100_000;
 
 /// A source on its way to a report.
 pub(crate) struct Study<'s> {
@@ -110,13 +113,21 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
     let axes = Axes { kept: useful(update, &plan.kept), roundings: plan.roundings.clone(), rungs: plan.rungs.clone() };
     let cells = update.samples.len();
     let effort = Effort {
-        rounds: if cells > 100_000 { 2 } else { 5 },
-        frames: frames.min((TIMED_CELLS / cells.max(1)).clamp(4, 24) as u32),
+        rounds: if cells > LARGE { 2 } else { 3 },
+        frames: frames.min((TIMED_CELLS / cells.max(1)).clamp(4, 12) as u32),
     };
     let ranges = Ranges::of(update, frames);
     let study = Study { request: plan.request, demand, ranges, effort, reference };
     let mut left_out = Vec::new();
-    let points = study.points(&axes.design(plan.extent), &mut left_out, &tell)?;
+    let extent = match plan.extent {
+        Extent::Sensible if cells > LARGE => {
+            left_out
+                .push("Large pictures: budgets were varied by all fractions together; --full varies each.".to_owned());
+            Extent::Sparing
+        }
+        extent => extent,
+    };
+    let points = study.points(&axes.design(extent), &mut left_out, &tell)?;
 
     let middle = axes.middle();
     let bits = study.bits(middle.kept, middle.step)?;

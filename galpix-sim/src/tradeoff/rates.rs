@@ -60,6 +60,9 @@ struct Sum {
     frames: u32,
 }
 
+/// A frame without error.
+const FRESH: Sum = Sum { flip: 0.0, squares: 0.0, frames: 1 };
+
 impl Sum {
     fn of(shown: &Picture, truth: &Picture) -> Self {
         let square = |(a, b): (&u8, &u8)| f64::from(a.abs_diff(*b)).powi(2);
@@ -105,37 +108,36 @@ pub fn rates(
     let truths: Vec<Picture> = (0..length).map(|t| scene::render(scene, f64::from(t))).collect();
     let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?;
     let everies: Vec<u32> = EVERY.into_iter().filter(|&every| every <= length).collect();
-    let starts: Vec<(u32, u32)> = everies
-        .iter()
-        .flat_map(|&every| (0..length).step_by(every as usize).map(move |start| (every, start)))
-        .collect();
-    let stretches: Vec<(u32, Sum, Sum)> = starts
-        .into_par_iter()
-        .map(|(every, start)| {
+    // What follows an update does not depend on when the next one comes: each is extrapolated once, for the slowest rate.
+    let starts: Vec<u32> = (0..length).filter(|start| start % 2 == 0 || length == 1).collect();
+    let stretches: Vec<Vec<(Sum, Sum)>> = starts
+        .par_iter()
+        .map(|&start| {
+            let slowest = everies.iter().copied().filter(|every| start % every == 0).max().unwrap_or(1);
             let update = scene::update(scene, f64::from(start));
             let hold = update.picture();
-            let (mut moved, mut held) = (Sum::default(), Sum::default());
-            let last = (every - 1).min(length - 1 - start);
-            engine.run(&update, last, |frame| {
+            let mut stretch = Vec::new();
+            engine.run(&update, slowest - 1, |frame| {
                 let truth = &truths[(start + frame.number) as usize];
-                if frame.number == 0 {
-                    // The update itself: what is shown is the truth.
-                    let fresh = Sum { frames: 1, ..Sum::default() };
-                    (moved, held) = (moved.and(fresh), held.and(fresh));
-                } else {
-                    moved = moved.and(Sum::of(&frame.picture(), truth));
-                    held = held.and(Sum::of(&hold, truth));
-                }
+                // The update itself: what is shown is the truth.
+                stretch.push(match frame.number {
+                    0 => (FRESH, FRESH),
+                    _ => (Sum::of(&frame.picture(), truth), Sum::of(&hold, truth)),
+                });
             })?;
-            Ok((every, moved, held))
+            Ok(stretch)
         })
         .collect::<Result<_, EngineError>>()?;
-    let total = |every: u32, which: fn(&(u32, Sum, Sum)) -> Sum| {
-        stretches.iter().filter(|stretch| stretch.0 == every).map(which).fold(Sum::default(), Sum::and)
+    let total = |every: u32, which: fn(&(Sum, Sum)) -> Sum| {
+        if every == 1 {
+            return Sum { frames: length, ..FRESH };
+        }
+        let taken = starts.iter().zip(&stretches).filter(|(start, _)| *start % every == 0);
+        taken.flat_map(|(_, stretch)| stretch.iter().take(every as usize).map(which)).fold(Sum::default(), Sum::and)
     };
-    let held: Vec<(u32, Sum)> = everies.iter().map(|&every| (every, total(every, |stretch| stretch.2))).collect();
+    let held: Vec<(u32, Sum)> = everies.iter().map(|&every| (every, total(every, |pair| pair.1))).collect();
     let rate = |(every, held_here): &(u32, Sum)| {
-        let moved = total(*every, |stretch| stretch.1);
+        let moved = total(*every, |pair| pair.0);
         Rate {
             every: *every,
             frames: moved.frames,

@@ -8,11 +8,11 @@ use crate::picture::Picture;
 use crate::update::{Known, Sample, Truth, Update};
 
 /// Pictures are looked at in so many frames, fewer where they are large: FLIP takes a microsecond a pixel.
-const MOST_PICTURES: usize = 6;
+const MOST_PICTURES: usize = 4;
 /// Pixels whose FLIP is taken for one configuration.
-const PIXELS: usize = 500_000;
+const PIXELS: usize = 600_000;
 /// Frames in which positions are looked at.
-const MOST_PLACES: usize = 8;
+const MOST_PLACES: usize = 6;
 
 /// A source, its update, and its truth.
 pub struct Reference<'s> {
@@ -44,7 +44,7 @@ impl<'s> Reference<'s> {
     pub fn new(source: &'s Source, frames: u32) -> Self {
         let update = source.update();
         let hold = update.picture();
-        let pictures = (PIXELS / hold.pixels.len().max(1)).clamp(2, MOST_PICTURES);
+        let pictures = (PIXELS / hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
         let known: Vec<u32> = match source {
             Source::Scene(_) => (1..=frames).collect(),
             Source::Capture(capture) => {
