@@ -16,6 +16,7 @@ use super::measure::apart;
 use super::ranges::Stored;
 use super::reference::{Reference, way};
 use crate::engine::{Engine, EngineError};
+use crate::experiment::Source;
 use crate::picture::Picture;
 use crate::update::Truth;
 
@@ -48,7 +49,10 @@ pub struct FrameCauses {
     pub mse_hold: Option<f64>,
 }
 
-/// The causes of every frame of a configuration.
+/// A true picture, and what was shown beside it.
+pub type Pair = (Truth, Picture);
+
+/// The causes of every frame of a configuration, and its pictures where the truth of a capture is known.
 ///
 /// *Errors:* a budget that does not fit the lanes.
 pub fn causes(
@@ -56,9 +60,10 @@ pub fn causes(
     configuration: &Configuration,
     bits: Bits,
     settings: Settings,
-) -> Result<Vec<FrameCauses>, EngineError> {
+) -> Result<(Vec<FrameCauses>, Vec<Pair>), EngineError> {
     let lanes = configuration.kept.lanes();
     let mut frames = Vec::with_capacity(reference.frames as usize);
+    let mut pairs = Vec::new();
     Engine::<Shaded>::with_lanes(bits, lanes, settings)?.run(&reference.update, reference.frames, |frame| {
         if frame.number == 0 {
             return;
@@ -68,15 +73,19 @@ pub fn causes(
         let missing = reached.iter().filter(|&&reached| !reached).count();
         causes.missing_percent = 100.0 * missing as f64 / reached.len().max(1) as f64;
         if let Some(truth) = reference.source.truth(frame.number) {
-            let [there, missing] = squares(&frame.picture(), &truth, &reached);
+            let picture = frame.picture();
+            let [there, missing] = squares(&picture, &truth, &reached);
             let [there_hold, missing_hold] = squares(&reference.hold, &truth, &reached);
             causes.mse_reached = Some(there);
             causes.mse_missing = Some(missing);
             causes.mse_hold = Some(there_hold + missing_hold);
+            if let Source::Capture(_) = reference.source {
+                pairs.push((truth, picture));
+            }
         }
         frames.push(causes);
     })?;
-    Ok(frames)
+    Ok((frames, pairs))
 }
 
 fn places(

@@ -122,7 +122,7 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
     let extent = match plan.extent {
         Extent::Sensible if cells > LARGE => {
             left_out
-                .push("Large pictures: budgets were varied by all fractions together; --full varies each.".to_owned());
+                .push("Large pictures: budgets were varied by all fractions together, by -2 to +1 bits; --full varies each field.".to_owned());
             Extent::Sparing
         }
         extent => extent,
@@ -133,13 +133,13 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
     let bits = study.bits(middle.kept, middle.step)?;
     let settings = study.settings(&middle, bits)?;
     tell(Work::Ahead(1));
-    let causes = causes::causes(&study.reference, &middle, bits, settings)?;
+    let (causes, shown) = causes::causes(&study.reference, &middle, bits, settings)?;
     let rates = match source {
         Source::Scene(scene) => rates::rates(*scene, frames, bits, middle.kept.lanes(), settings)?,
         Source::Capture(_) => Vec::new(),
     };
     tell(Work::Done);
-    let ages = points.first().map_or_else(Vec::new, |point| rates::ages(&study.reference, &point.frames));
+    let ages = if rates.is_empty() { rates::ages(&study.reference.hold, &shown) } else { Vec::new() };
     let hold = Summary::of(&measure::hold(&study.reference));
     left_out.extend(omissions(&study, source, middle));
     let reference = &study.reference;
@@ -217,7 +217,7 @@ fn omissions(study: &Study<'_>, source: &Source, middle: Configuration) -> Vec<S
             }
         }
     }
-    left_out.push("Floats have the rungs none and hold only.".to_owned());
+    left_out.push("Floats have the rungs hold and, with the richest lanes, none.".to_owned());
     if middle.kept.lanes() != Lanes::FULL && middle.kept != Kept::Luminosity {
         left_out.push(format!("The causes and the rates are those of lanes {}.", middle.kept.name()));
     }

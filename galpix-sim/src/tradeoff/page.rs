@@ -1,6 +1,7 @@
 //! The report as a page: how to read it, a section for each source, and what it was made with.
 
 use super::figures;
+use super::rates::Rate;
 use super::report::{Document, Point, Scheme, SourceReport};
 use crate::report::{self, text::Text, text::figure};
 
@@ -72,30 +73,37 @@ fn section(index: usize, source: &SourceReport) -> String {
 
 /// What galpixels buy, in a sentence or two.
 fn gain(source: &SourceReport) -> String {
-    let rates = source.rates.iter().filter(|rate| rate.every > 1 && rate.hold_needs_every < rate.every);
-    let bought = rates.map(|rate| {
-        let needed = match rate.hold_needs_every {
-            1 => "every frame".to_owned(),
-            every => format!("1 frame in {every}"),
-        };
-        format!(
-            "galpix with an update in <strong>1 frame of {}</strong> is as good as sample-and-hold in {needed}",
-            rate.every
-        )
+    let better = |rate: &&Rate| rate.every > 1 && rate.hold_needs_every < rate.every;
+    let mut needed: Vec<u32> = source.rates.iter().filter(better).map(|rate| rate.hold_needs_every).collect();
+    needed.dedup();
+    let one_of = |every: u32| match every {
+        1 => "every frame".to_owned(),
+        every => format!("1 frame in {every}"),
+    };
+    let bought = needed.iter().map(|&needed| {
+        let rates = source.rates.iter().filter(better).filter(|rate| rate.hold_needs_every == needed);
+        let every: Vec<String> = rates.map(|rate| rate.every.to_string()).collect();
+        format!("an update in <strong>1 frame of {}</strong> as good as one in {}", every.join(" or "), one_of(needed))
     });
     let sentences: Vec<String> = bought.collect();
+    // The oldest frame that sample-and-hold is as bad as at an earlier age already.
     let aged = || {
-        let age = source.ages.last()?;
-        let as_bad = source.ages.iter().find(|hold| hold.flip_hold >= age.flip)?;
-        Some(format!(
-            "<strong>{} frames</strong> after the update galpix has FLIP {}; sample-and-hold has as much after {} already",
-            age.frame,
-            figure(Some(age.flip), 3),
-            as_bad.frame
-        ))
+        source.ages.iter().rev().find_map(|age| {
+            let as_bad = source.ages.iter().find(|held| held.flip_hold >= age.flip && held.frame < age.frame)?;
+            Some(format!(
+                "<strong>{} frames</strong> after the update galpix has FLIP {}; sample-and-hold has {} after {} already",
+                age.frame,
+                figure(Some(age.flip), 3),
+                figure(Some(as_bad.flip_hold), 3),
+                as_bad.frame
+            ))
+        })
     };
     match (sentences.is_empty(), source.rates.is_empty()) {
-        (false, _) => format!("<p class=\"promise good\">By mean FLIP over all frames: {}.</p>", sentences.join("; ")),
+        (false, _) => format!(
+            "<p class=\"promise good\">By mean FLIP over all frames, galpix makes {}, with sample-and-hold.</p>",
+            sentences.join("; ")
+        ),
         (true, true) => aged().map_or_else(String::new, |text| format!("<p class=\"promise good\">{text}.</p>")),
         (true, false) => {
             "<p class=\"promise poor\">At no rate does galpix save an update here: sample-and-hold is as good.</p>"
@@ -142,7 +150,7 @@ fn row(point: &Point, name: &str) -> String {
 }
 
 fn table(rows: &str) -> String {
-    format!("<div class=\"wide\"><table class=\"rows\">{HEAD}<tbody>{rows}</tbody></table></div>")
+    format!("<div class=\"wide\"><table class=\"rows points\">{HEAD}<tbody>{rows}</tbody></table></div>")
 }
 
 /// The fronts, named as in the plots, with floats beneath.

@@ -82,7 +82,7 @@ impl Study<'_> {
                 )),
             }
         }
-        let floats = self.float_configurations(&candidates);
+        let floats = Self::float_configurations(&candidates);
         tell(Work::Ahead(candidates.len() as u64));
         let certificates = self.certificates(&candidates);
         let mut points: Vec<Point> = candidates
@@ -102,14 +102,16 @@ impl Study<'_> {
     }
 
     /// The lanes of the candidates in floats, with the rungs that floats have.
-    fn float_configurations(&self, candidates: &[Candidate]) -> Vec<Configuration> {
+    fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
         let mut floats: Vec<Configuration> = Vec::new();
-        let rungs = candidates.iter().map(|candidate| candidate.configuration.rung);
-        let none = rungs.clone().any(|rung| rung == Rung::None);
+        let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
+        let none = candidates.iter().any(|candidate| candidate.configuration.rung == Rung::None);
         for Candidate { configuration, .. } in candidates {
-            for rung in [Rung::None, Rung::Hold].into_iter().filter(|&rung| none || rung == Rung::Hold) {
+            for rung in [Rung::None, Rung::Hold] {
+                // Black holes are for study: the richest lanes show them.
+                let shown = rung == Rung::Hold || none && configuration.kept == middle;
                 let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
-                if configuration.kept != Kept::Still && !floats.contains(&float) {
+                if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
                     floats.push(float);
                 }
             }

@@ -9,7 +9,7 @@ use galpix_core::layout::{Lanes, Shaded};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::reference::Reference;
+use super::causes::Pair;
 use crate::engine::{Engine, EngineError};
 use crate::metric;
 use crate::picture::Picture;
@@ -158,20 +158,18 @@ fn needed(flip: f64, held: &[(u32, Sum)]) -> u32 {
 
 /// galpix and sample-and-hold at the ages whose true picture is known.
 #[must_use]
-pub fn ages(reference: &Reference<'_>, frames: &[super::report::FrameError]) -> Vec<Age> {
-    let age = |frame: &super::report::FrameError| {
-        let truth = reference.truth(frame.frame)?;
+pub fn ages(hold: &Picture, pairs: &[Pair]) -> Vec<Age> {
+    let age = |(truth, shown): &Pair| {
         let mask = truth.mask.as_deref();
-        let picture = frame.picture?;
         Some(Age {
-            frame: frame.frame,
-            flip: picture.flip,
-            flip_hold: metric::flip(&reference.hold, &truth.picture, mask)?,
-            psnr_db: picture.psnr_db,
-            psnr_hold_db: metric::psnr_db(&reference.hold, &truth.picture, mask)?,
+            frame: truth.frame,
+            flip: metric::flip(shown, &truth.picture, mask)?,
+            flip_hold: metric::flip(hold, &truth.picture, mask)?,
+            psnr_db: metric::psnr_db(shown, &truth.picture, mask)?,
+            psnr_hold_db: metric::psnr_db(hold, &truth.picture, mask)?,
         })
     };
-    frames.iter().filter_map(age).collect()
+    pairs.par_iter().filter_map(age).collect()
 }
 
 #[cfg(test)]

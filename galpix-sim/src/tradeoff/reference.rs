@@ -10,7 +10,7 @@ use crate::update::{Known, Sample, Truth, Update};
 /// Pictures are looked at in so many frames, fewer where they are large: FLIP takes a microsecond a pixel.
 const MOST_PICTURES: usize = 4;
 /// Pixels whose FLIP is taken for one configuration.
-const PIXELS: usize = 600_000;
+const PIXELS: usize = 700_000;
 /// Frames in which positions are looked at.
 const MOST_PLACES: usize = 6;
 
