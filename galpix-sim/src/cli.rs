@@ -3,6 +3,7 @@
 mod budget;
 mod choices;
 mod demo;
+mod error;
 mod plan;
 mod run;
 mod scenes;
@@ -60,6 +61,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Error against run time over budgets, lanes, roundings and rungs: tables, plots, the Pareto front
+    Error(error::Error),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -82,6 +85,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Error(error) => error.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),
@@ -124,6 +128,11 @@ fn say(text: &str) {
 /// A text from outside without the characters that command a terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// The same for a text of several lines.
+fn printable_lines(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
 }
 
 /// Refuses a budget that cannot exist, before a folder is made for it.

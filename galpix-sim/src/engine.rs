@@ -8,7 +8,7 @@ use galpix_core::budget::Bits;
 use galpix_core::error::{BudgetError, SetupError};
 use galpix_core::fill::FILLED;
 use galpix_core::frame::{Controller, Scratch, Settings};
-use galpix_core::galpixel::{Chosen, Class, Galpixel};
+use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings as CoreWings};
 use galpix_core::layout::{Lanes, Layout};
@@ -116,13 +116,14 @@ impl<L: Layout> Engine<L> {
     }
 }
 
-fn core_wings(wings: Wings) -> CoreWings {
+/// The wings of an update, as the core has them.
+pub(crate) fn core_wings(wings: Wings) -> CoreWings {
     let cells = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
     CoreWings { left: cells(wings.left), right: cells(wings.right), top: cells(wings.top), bottom: cells(wings.bottom) }
 }
 
 /// Writes the samples of an update into a map, quantised to its budget.
-pub fn load<L: Layout>(update: &Update, map: &mut Galpixmap<'_, L, Chosen<L>>) -> LoadTally {
+pub fn load<L: Layout, B: Budget<L>>(update: &Update, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
     let mut tally = LoadTally::default();
     for (y, row) in (0i32..).zip(update.samples.chunks(update.width.max(1))) {
         for (x, sample) in (0i32..).zip(row) {

@@ -249,7 +249,7 @@ fn run_as<L: Layout>(
     })
 }
 
-/// The engine's settings for a request.
+/// How the frames of an update are made under a record.
 pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
     let depth_bits = u32::from(record.depth().bits);
     let by_kind = match depth_kind {

@@ -18,5 +18,6 @@ pub mod progress;
 pub mod report;
 pub mod scene;
 pub mod stability;
+pub mod tradeoff;
 pub mod update;
 pub mod vectors;

@@ -130,7 +130,8 @@ pub struct Extrapolation {
     pub acceleration: AccelerationChoice,
 }
 
-fn part(text: &str) -> Result<f64, String> {
+/// A part of the depth range, from an argument.
+pub fn part(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(part) if (0.0..=8.0).contains(&part) => Ok(part),
         _ => Err("give a number from 0 to 8".to_owned()),

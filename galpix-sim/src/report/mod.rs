@@ -8,11 +8,15 @@
 //!                     └─▶ story (film, certificate, table) ─▶ figures (which lines) ─▶ plot (SVG)
 //! ```
 
+pub(crate) mod axis;
+mod canvas;
 mod figures;
 mod overview;
 mod page;
 pub(crate) mod plot;
 mod save;
+pub(crate) mod scatter;
+pub(crate) mod stack;
 mod story;
 pub(crate) mod style;
 pub(crate) mod text;

@@ -1,12 +1,11 @@
-//! One plot as inline SVG: lines over frames. The only place that knows `plotters`.
+//! One plot as inline SVG: lines over frames.
 
+use super::canvas::{FINE, colour, element, pen};
 use super::style::Ink;
-use super::text::{Text, figure};
+use super::text::figure;
 use plotters::coord::ranged1d::{AsRangedCoord, DefaultFormatting, KeyPointHint, ValueFormatter};
 use plotters::prelude::*;
 
-/// Units of the drawing for each unit of the page: `plotters` places in whole units.
-const FINE: u32 = 4;
 const WIDTH: u32 = 380;
 const HEIGHT: u32 = 236;
 /// Above this many points a line carries no dots.
@@ -69,7 +68,7 @@ pub fn svg(plot: &Plot) -> Option<String> {
     let end = values.end;
     let mut drawing = String::new();
     draw(plot, frames, values, &label, |value| value.min(end), &mut drawing).ok()?;
-    finished(plot, &drawing)
+    element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
 /// The same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below, and those more
@@ -81,7 +80,7 @@ pub fn svg_log(plot: &Plot) -> Option<String> {
     let inside = |value: f64| if value > 0.0 { value.log10().clamp(start, end) } else { start };
     let mut drawing = String::new();
     draw(plot, frames, Decades { lowest, highest }, &|power| power_of_ten(*power), inside, &mut drawing).ok()?;
-    finished(plot, &drawing)
+    element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
 /// The powers of ten around all figures above 0, never the same.
@@ -136,18 +135,6 @@ fn power_of_ten(power: f64) -> String {
             format!("10{sign}{raised}")
         }
     }
-}
-
-/// A drawing with an opening tag of its own.
-fn finished(plot: &Plot, drawing: &str) -> Option<String> {
-    // its own opening tag instead of the backend's, which fixes a size and names a namespace that HTML does not need
-    let body = drawing.split_once('>')?.1;
-    Some(format!(
-        "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{body}",
-        WIDTH * FINE,
-        HEIGHT * FINE,
-        Text(&plot.description)
-    ))
 }
 
 /// First and last frame, never the same.
@@ -223,15 +210,6 @@ where
     root.present()?;
     drop(chart);
     Ok(())
-}
-
-fn colour(ink: Ink) -> RGBColor {
-    let [r, g, b] = ink.light();
-    RGBColor(r, g, b)
-}
-
-fn pen(ink: Ink, width: u32) -> ShapeStyle {
-    colour(ink).stroke_width(width * FINE)
 }
 
 /// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5 times

@@ -1,0 +1,221 @@
+//! `galpix error`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use galpix_core::fill::Rung;
+use galpix_core::rounding::Rounding;
+
+use super::choices::{AccelerationChoice, FillChoice, RoundingChoice, part};
+use super::{CliError, print, print_json};
+use crate::experiment::{Request, Source};
+use crate::progress;
+use crate::report;
+use crate::tradeoff::design::{Extent, Kept};
+use crate::tradeoff::report::{Document, SourceReport};
+use crate::tradeoff::{self, Plan, csv, page, table};
+
+/// Which lanes a galpixel carries beside class and colour.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum LaneChoice {
+    /// None: the picture stands still
+    Still,
+    /// Velocity in x and y, depth that does not move
+    Velocity,
+    /// Velocity in x, y and depth
+    VelocityDepth,
+    /// Velocity and acceleration in x and y, depth that does not move
+    Acceleration,
+    /// Velocity and acceleration in x, y and depth
+    Full,
+    /// Full, and the rate of the luminosity; only where the source has one
+    Luminosity,
+}
+
+impl From<LaneChoice> for Kept {
+    fn from(choice: LaneChoice) -> Self {
+        match choice {
+            LaneChoice::Still => Self::Still,
+            LaneChoice::Velocity => Self::Velocity,
+            LaneChoice::VelocityDepth => Self::VelocityDepth,
+            LaneChoice::Acceleration => Self::Acceleration,
+            LaneChoice::Full => Self::Full,
+            LaneChoice::Luminosity => Self::Luminosity,
+        }
+    }
+}
+
+/// Arguments of `galpix error`.
+#[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
+pub struct Error {
+    /// Built-in scenes' names, or paths of a capture.toml or of its folder
+    #[arg(required = true, value_name = "SOURCE")]
+    sources: Vec<String>,
+    /// Few points: two budgets beside the derived one, two rungs
+    #[arg(long, conflicts_with = "full")]
+    quick: bool,
+    /// Many points: all lanes by all roundings by all rungs, all budgets by all roundings
+    #[arg(long)]
+    full: bool,
+    /// Lanes to choose from [default: all that the source has a use for]
+    #[arg(long, value_enum, value_name = "LANES", value_delimiter = ',')]
+    lanes: Vec<LaneChoice>,
+    /// Roundings to choose from [default: all]
+    #[arg(long, value_enum, value_name = "ROUNDINGS", value_delimiter = ',')]
+    roundings: Vec<RoundingChoice>,
+    /// Rungs to choose from [default: all that are built]
+    #[arg(long, value_enum, value_name = "RUNGS", value_delimiter = ',')]
+    rungs: Vec<FillChoice>,
+    /// Frames to extrapolate [default: what the source is meant for]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    frames: Option<u32>,
+    /// D, the extent of the display in pixels [default: the next power of two of the larger side]
+    #[arg(long, value_name = "PX")]
+    extent: Option<u32>,
+    /// tau_recog, the shortest recognisable time in frames [default: 8]
+    #[arg(long, value_name = "FRAMES")]
+    recog: Option<u32>,
+    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames]
+    #[arg(long, value_name = "FRAMES")]
+    prop: Option<u32>,
+    /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
+    #[arg(long, value_name = "PART", value_parser = part)]
+    edge_threshold: Option<f64>,
+    /// What is done with the accelerations of a capture
+    #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
+    acceleration: AccelerationChoice,
+    /// Folder for error.html, error.csv and error.json [default: galpix-out/error; with --json nothing is written without it]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Error {
+    /// Measures the sources and writes the report.
+    pub fn run(&self) -> Result<(), CliError> {
+        let started = Instant::now();
+        let plan = self.plan()?;
+        let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
+        let sources: Vec<Source> = self.sources.iter().map(open).collect::<Result<_, _>>()?;
+        sources.iter().try_for_each(|source| tradeoff::check(source, &plan).map_err(CliError::unusable))?;
+        let out = match (&self.out, self.json) {
+            (Some(out), _) => Some(out.clone()),
+            (None, true) => None,
+            (None, false) => Some(PathBuf::from("galpix-out/error")),
+        };
+        if let Some(out) = &out {
+            writable(out)?;
+        }
+        let mut reports: Vec<SourceReport> = Vec::new();
+        for source in &sources {
+            let bar = progress::bar(0, &super::printable(source.name()));
+            let report = tradeoff::study(source, &plan, |work| match work {
+                tradeoff::Work::Ahead(work) => bar.inc_length(work),
+                tradeoff::Work::Done => bar.inc(1),
+            })
+            .map_err(CliError::unusable)?;
+            bar.finish_and_clear();
+            if !self.json {
+                print(&super::printable_lines(&table::text(&report)))?;
+            }
+            reports.push(report);
+        }
+        let document = Document {
+            version: env!("CARGO_PKG_VERSION"),
+            command: command(),
+            machine: machine(),
+            seconds: started.elapsed().as_secs_f64(),
+            sources: reports,
+        };
+        if let Some(out) = &out {
+            write(out, &document)?;
+        }
+        match out {
+            _ if self.json => print_json(&document),
+            Some(out) => print(&out.join("error.html").display().to_string()),
+            None => Ok(()),
+        }
+    }
+
+    fn plan(&self) -> Result<Plan, CliError> {
+        let mut rungs =
+            self.rungs.iter().map(|rung| rung.rung()).collect::<Result<Vec<Rung>, _>>().map_err(CliError::Unusable)?;
+        let mut roundings: Vec<Rounding> = self.roundings.iter().map(|&rounding| rounding.into()).collect();
+        let mut kept: Vec<Kept> = self.lanes.iter().map(|&lanes| lanes.into()).collect();
+        let place = |rounding: &Rounding| Rounding::ALL.iter().position(|other| other == rounding);
+        rungs.sort_unstable();
+        rungs.dedup();
+        roundings.sort_unstable_by_key(place);
+        roundings.dedup();
+        kept.sort_unstable();
+        kept.dedup();
+        let all = |none: bool| none.then_some(());
+        let extent = match (self.quick, self.full) {
+            (true, _) => Extent::Quick,
+            (_, true) => Extent::Full,
+            _ => Extent::Sensible,
+        };
+        Ok(Plan {
+            request: Request {
+                frames: self.frames,
+                extent: self.extent,
+                recog: self.recog,
+                prop: self.prop,
+                edge_threshold: self.edge_threshold,
+                ..Request::default()
+            },
+            kept: all(kept.is_empty()).map_or(kept, |()| Kept::ALL.to_vec()),
+            roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
+            rungs: all(rungs.is_empty()).map_or(rungs, |()| Rung::ALL.to_vec()),
+            extent,
+        })
+    }
+}
+
+/// Makes the folder and tries to write into it, before anything is measured.
+fn writable(out: &Path) -> Result<(), CliError> {
+    let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
+    std::fs::create_dir_all(out).map_err(unwritable)?;
+    let probe = out.join(format!(".error.{}.probe", std::process::id()));
+    std::fs::write(&probe, []).and_then(|()| std::fs::remove_file(&probe)).map_err(unwritable)
+}
+
+/// Writes the three files; the page last, so that where there is one, the others are there too.
+fn write(out: &Path, document: &Document) -> Result<(), CliError> {
+    let json = serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))? + "\n";
+    for (name, text) in [("error.csv", csv::csv(document)), ("error.json", json), ("error.html", page::html(document))]
+    {
+        let path = out.join(name);
+        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
+    }
+    Ok(())
+}
+
+/// The call, as it can be repeated.
+fn command() -> String {
+    let quoted = |argument: String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
+        if !argument.is_empty() && argument.chars().all(plain) {
+            argument
+        } else {
+            format!("'{}'", argument.replace('\'', r"'\''"))
+        }
+    };
+    let arguments = std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("galpix".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+/// The processor's name and the number of its threads, as far as the system tells.
+fn machine() -> String {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let name = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_owned())
+    });
+    let name = name.unwrap_or_else(|| format!("{} ({})", std::env::consts::ARCH, std::env::consts::OS));
+    format!("{name}, {threads} threads")
+}

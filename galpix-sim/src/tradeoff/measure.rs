@@ -1,0 +1,150 @@
+//! The error of one configuration: galpixel by galpixel, and as pictures.
+
+use galpix_core::budget::Bits;
+use galpix_core::layout::{Lanes, Shaded};
+
+use super::design::Configuration;
+use super::float;
+use super::ranges::Stored;
+use super::reference::{Reference, way};
+use super::report::{FrameError, PictureError};
+use crate::engine::{Engine, EngineError, LoadTally};
+use crate::metric;
+use crate::picture::Picture;
+use galpix_core::frame::Settings;
+
+/// What a configuration gave.
+pub struct Measured {
+    /// What entered.
+    pub loaded: LoadTally,
+    /// Fields clamped in all frames.
+    pub saturated: u64,
+    /// The frames that were looked at.
+    pub frames: Vec<FrameError>,
+}
+
+/// Runs a configuration and looks at it. `bits` are its widths.
+///
+/// *Errors:* a budget that does not fit the lanes, an update that cannot be laid out.
+pub fn engine(
+    reference: &Reference<'_>,
+    configuration: &Configuration,
+    bits: Bits,
+    settings: Settings,
+) -> Result<Measured, EngineError> {
+    let lanes = configuration.kept.lanes();
+    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?;
+    let mut frames = Vec::with_capacity(reference.looked.len());
+    let mut saturated = 0;
+    let loaded = engine.run(&reference.update, reference.frames, |frame| {
+        saturated += u64::from(frame.tally.saturated);
+        if reference.looked.contains(&frame.number) {
+            let budget = Some((bits, lanes));
+            let mut error = positions(reference, frame.number, lanes, budget, frame.places());
+            error.picture = picture(reference, frame.number, || (frame.picture(), frame.reached()));
+            frames.push(error);
+        }
+    })?;
+    Ok(Measured { loaded, saturated, frames })
+}
+
+/// Runs the floats with the lanes and the rung of a configuration and looks at them.
+#[must_use]
+pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measured {
+    let lanes = configuration.kept.lanes();
+    let mut frames = Vec::with_capacity(reference.looked.len());
+    let Reference { update, looked, .. } = reference;
+    float::run(update, configuration.kept, configuration.rung, reference.frames, looked, |frame| {
+        let mut error = positions(reference, frame.number, lanes, None, frame.places.iter().copied());
+        error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
+        frames.push(error);
+    });
+    Measured { loaded: LoadTally::default(), saturated: 0, frames }
+}
+
+/// Sample-and-hold in the frames that are looked at.
+#[must_use]
+pub fn hold(reference: &Reference<'_>) -> Vec<FrameError> {
+    let all = vec![false; reference.hold.pixels.len()];
+    let still = |&frame: &u32| FrameError {
+        picture: picture(reference, frame, || (reference.hold.clone(), all.clone())).map(|picture| PictureError {
+            psnr_known_db: None,
+            missing_percent: None,
+            ..picture
+        }),
+        ..FrameError::at(frame)
+    };
+    reference.looked.iter().map(still).collect()
+}
+
+/// The larger of the errors in x and y.
+pub fn apart(place: [f64; 2], should: [f64; 2]) -> f64 {
+    (place[0] - should[0]).abs().max((place[1] - should[1]).abs())
+}
+
+fn positions(
+    reference: &Reference<'_>,
+    frame: u32,
+    lanes: Lanes,
+    budget: Option<(Bits, Lanes)>,
+    places: impl Iterator<Item = (u32, [f64; 2])>,
+) -> FrameError {
+    let mut error = FrameError::at(frame);
+    let (mut count, mut known, mut sum, mut true_sum, mut true_worst) = (0u32, 0u32, 0.0, 0.0, 0.0f64);
+    let (mut worst, mut kept_worst) = (0.0f64, 0.0f64);
+    for (origin, place) in places {
+        let Some(sample) = reference.update.samples.get(origin as usize) else { continue };
+        let from = reference.from(origin);
+        let after = |way: [f64; 2]| [from[0] + way[0], from[1] + way[1]];
+        let second_order = apart(place, after(way(sample, Lanes::FULL, frame)));
+        worst = worst.max(second_order);
+        sum += second_order;
+        count += 1;
+        // What saturated is outside of the certificate.
+        let fits = budget
+            .is_none_or(|(bits, lanes)| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, lanes, frame).fits));
+        if fits {
+            kept_worst = kept_worst.max(apart(place, after(way(sample, lanes, frame))));
+        } else {
+            error.saturated_galpixels += 1;
+        }
+        if let Some(truth) = reference.track(origin, frame) {
+            let off = apart(place, truth);
+            true_worst = true_worst.max(off);
+            true_sum += off;
+            known += 1;
+        }
+    }
+    error.galpixels = count;
+    if count > 0 {
+        error.kept_worst_px = Some(kept_worst);
+        error.worst_px = Some(worst);
+        error.mean_px = Some(sum / f64::from(count));
+    }
+    if known > 0 {
+        error.truth_worst_px = Some(true_worst);
+        error.truth_mean_px = Some(true_sum / f64::from(known));
+    }
+    error
+}
+
+fn picture(
+    reference: &Reference<'_>,
+    frame: u32,
+    shown: impl FnOnce() -> (Picture, Vec<bool>),
+) -> Option<PictureError> {
+    let truth = reference.truth(frame)?;
+    let (picture, reached) = shown();
+    let mask = truth.mask.as_deref();
+    let counts = |index: usize| mask.is_none_or(|mask| mask[index]);
+    let counted = (0..reached.len()).filter(|&index| counts(index)).count();
+    let known: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| reached && counts(index)).collect();
+    let there = known.iter().filter(|&&known| known).count();
+    Some(PictureError {
+        psnr_db: metric::psnr_db(&picture, &truth.picture, mask)?,
+        psnr_known_db: metric::psnr_db(&picture, &truth.picture, Some(&known)),
+        ssim: metric::ssim(&picture, &truth.picture, mask)?,
+        flip: metric::flip(&picture, &truth.picture, mask)?,
+        missing_percent: Some(100.0 * (counted - there) as f64 / counted.max(1) as f64),
+    })
+}

@@ -1,0 +1,276 @@
+//! From configurations to points: errors on all processors, then times on one.
+
+use std::collections::HashMap;
+
+use galpix_core::budget::Bits;
+use galpix_core::colour::Colour;
+use galpix_core::error::BudgetError;
+use galpix_core::fill::Rung;
+use galpix_core::frame::Settings;
+use galpix_core::galpixel::Chosen;
+use galpix_core::layout::{Layout, Shaded};
+use galpix_core::record::Record;
+use galpix_core::rounding::Rounding;
+use rayon::prelude::*;
+
+use super::design::{Configuration, Kept, Step};
+use super::report::{FrameError, Point, Scheme, Summary};
+use super::timing::{Contender, Engine, InFloats, Time, race};
+use super::{Study, Work, float, measure, stand_in};
+use crate::certificate::Certificate;
+use crate::experiment::{ExperimentError, Request, settings};
+
+/// A configuration whose budget exists.
+struct Candidate {
+    configuration: Configuration,
+    bits: Bits,
+    record: Record,
+    settings: Settings,
+}
+
+impl Candidate {
+    /// Whether another one would do the same.
+    fn is(&self, other: &Self) -> bool {
+        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept);
+        what(self) == what(other)
+    }
+}
+
+type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender>> + 'm>;
+
+impl Study<'_> {
+    /// The record of some lanes under a budget.
+    fn record(&self, kept: Kept, bits: Bits) -> Result<Record, BudgetError> {
+        Record::plan(bits, kept.lanes(), <Shaded as Layout>::Colour::BITS)
+    }
+
+    /// How the frames of a configuration are made.
+    pub(super) fn settings(&self, configuration: &Configuration, bits: Bits) -> Result<Settings, BudgetError> {
+        let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.request };
+        Ok(settings(&self.record(configuration.kept, bits)?, self.reference.update.depth_kind, &request))
+    }
+
+    fn candidate(&self, configuration: Configuration) -> Result<Candidate, BudgetError> {
+        let bits = self.bits(configuration.kept, configuration.step)?;
+        Chosen::<Shaded>::with_lanes(bits, configuration.kept.lanes())?;
+        Ok(Candidate {
+            configuration,
+            bits,
+            record: self.record(configuration.kept, bits)?,
+            settings: self.settings(&configuration, bits)?,
+        })
+    }
+
+    /// Measures the configurations, and the floats beside them. What has no budget is left out, with a word on why.
+    pub(super) fn points(
+        &self,
+        design: &[Configuration],
+        left_out: &mut Vec<String>,
+        tell: &(impl Fn(Work) + Sync),
+    ) -> Result<Vec<Point>, ExperimentError> {
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for &configuration in design {
+            match self.candidate(configuration) {
+                // A step may lead to widths that are there already.
+                Ok(new) if candidates.iter().any(|old| old.is(&new)) => {}
+                Ok(new) => candidates.push(new),
+                Err(error) if configuration.step == Step::DERIVED => return Err(error.into()),
+                Err(error) => left_out.push(format!(
+                    "Budget {} with lanes {} does not exist: {error}.",
+                    configuration.step.name(),
+                    configuration.kept.name()
+                )),
+            }
+        }
+        let floats = Self::float_configurations(&candidates);
+        tell(Work::Ahead(candidates.len() as u64));
+        let certificates = self.certificates(&candidates);
+        let mut points: Vec<Point> = candidates
+            .par_iter()
+            .map(|candidate| {
+                let point = self.galpix(candidate, &certificates);
+                tell(Work::Done);
+                point
+            })
+            .collect::<Result<_, _>>()?;
+        points.par_extend(floats.par_iter().map(|configuration| self.floats(configuration)));
+        self.time(&candidates, &floats, &mut points, tell);
+        for (point, id) in points.iter_mut().zip(1..) {
+            point.id = id;
+        }
+        Ok(points)
+    }
+
+    /// The lanes of the candidates in floats, with the rungs that floats have.
+    fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
+        let mut floats: Vec<Configuration> = Vec::new();
+        let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
+        let none = candidates.iter().any(|candidate| candidate.configuration.rung == Rung::None);
+        for Candidate { configuration, .. } in candidates {
+            for rung in [Rung::None, Rung::Hold] {
+                // Black holes are for study: the richest lanes show them.
+                let shown = rung == Rung::Hold || none && configuration.kept == middle;
+                let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
+                if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
+                    floats.push(float);
+                }
+            }
+        }
+        floats
+    }
+
+    /// The certificate of each kind of arithmetic among the candidates.
+    fn certificates(&self, candidates: &[Candidate]) -> HashMap<Arithmetic, Certificate> {
+        let mut kinds: Vec<(Arithmetic, &Candidate)> =
+            candidates.iter().map(|candidate| (Arithmetic::of(candidate), candidate)).collect();
+        kinds.sort_by_key(|kind| kind.0);
+        kinds.dedup_by_key(|kind| kind.0);
+        let certify = |&(kind, candidate): &(Arithmetic, &Candidate)| {
+            let lanes = candidate.configuration.kept.lanes();
+            let scale = &candidate.record.scales[0];
+            let rounding = candidate.settings.rounding;
+            (kind, Certificate::of(scale, lanes.acceleration, rounding, self.demand.prop))
+        };
+        kinds.par_iter().map(certify).collect()
+    }
+
+    fn galpix(
+        &self,
+        candidate: &Candidate,
+        certificates: &HashMap<Arithmetic, Certificate>,
+    ) -> Result<Point, ExperimentError> {
+        let Candidate { configuration, bits, record, settings } = candidate;
+        let mut measured = measure::engine(&self.reference, configuration, *bits, *settings)?;
+        let lanes = configuration.kept.lanes();
+        let certificate = certificates.get(&Arithmetic::of(candidate));
+        for frame in &mut measured.frames {
+            // What has no velocity stays where it is, exactly.
+            frame.certified_px =
+                if lanes.velocity { certificate.and_then(|bound| bound.after(frame.frame)) } else { Some(0.0) };
+            frame.left_out_px = self.reference.left_out_px(lanes, frame.frame);
+        }
+        let x = bits.x;
+        Ok(Point {
+            bits: Some([x.position_frac, x.velocity_int, x.velocity_frac, x.acceleration_int, x.acceleration_frac]),
+            rounding: Some(settings.rounding.name()),
+            bytes: record.bytes(),
+            used_bits: record.bits(),
+            saturated: u64::from(measured.loaded.saturated) + measured.saturated,
+            budget: configuration.step.name(),
+            stand_in: stand_in::of(configuration.kept, record.words()).map(stand_in::StandIn::name),
+            ..point(Scheme::Galpix, configuration, measured.frames)
+        })
+    }
+
+    fn floats(&self, configuration: &Configuration) -> Point {
+        let mut measured = measure::floats(&self.reference, configuration);
+        for frame in &mut measured.frames {
+            frame.left_out_px = self.reference.left_out_px(configuration.kept.lanes(), frame.frame);
+        }
+        let bytes = float::maps(configuration.kept, 1, 1).map_or(0, |maps| maps.bytes_per_pixel());
+        let used_bits = 8 * bytes as u32;
+        Point { bytes, used_bits, ..point(Scheme::F32, configuration, measured.frames) }
+    }
+
+    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each rung, floats.
+    fn time(
+        &self,
+        candidates: &[Candidate],
+        floats: &[Configuration],
+        points: &mut [Point],
+        tell: &(impl Fn(Work) + Sync),
+    ) {
+        let update = &self.reference.update;
+        let mut makers: Vec<Maker<'_>> = Vec::new();
+        for candidate in candidates {
+            makers.push(Box::new(move || {
+                let budget = Chosen::<Shaded>::with_lanes(candidate.bits, candidate.configuration.kept.lanes()).ok()?;
+                Some(Box::new(Engine::<Shaded, _>::new(update, budget, candidate.settings)?))
+            }));
+        }
+        for configuration in floats {
+            let cells = update.samples.len();
+            makers.push(Box::new(move || {
+                let maps = float::maps(configuration.kept, update.width, update.height)?;
+                Some(Box::new(InFloats { maps, rung: configuration.rung, cells }))
+            }));
+        }
+        let mut fixed: Vec<(String, Rung)> = Vec::new();
+        for candidate in candidates {
+            let Some(stand_in) = stand_in::of(candidate.configuration.kept, candidate.record.words()) else { continue };
+            let kind = (stand_in.name(), candidate.configuration.rung);
+            if !fixed.contains(&kind) {
+                fixed.push(kind);
+                // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another number.
+                let settings = self.stand_in_settings(stand_in, candidate);
+                makers.push(Box::new(move || stand_in.contender(update, settings)));
+            }
+        }
+        tell(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));
+        let times = race(update, self.effort, &makers, || tell(Work::Done));
+        let (own, fixed_times) = times.split_at(candidates.len() + floats.len());
+        for (index, (point, &time)) in points.iter_mut().zip(own).enumerate() {
+            match candidates.get(index) {
+                Some(candidate) => {
+                    point.run_time = time;
+                    let place = fixed.iter().position(|(name, rung)| {
+                        Some(name) == point.stand_in.as_ref() && *rung == candidate.configuration.rung
+                    });
+                    point.compile_time = place.and_then(|place| fixed_times[place]);
+                }
+                None => point.compile_time = time,
+            }
+        }
+    }
+
+    fn stand_in_settings(&self, stand_in: &stand_in::StandIn, candidate: &Candidate) -> Settings {
+        let request =
+            Request { rounding: candidate.configuration.rounding, fill: candidate.configuration.rung, ..self.request };
+        let bits = Step::DERIVED.bits(stand_in.demand, stand_in.kept.lanes(), &self.ranges);
+        let record = bits.and_then(|bits| self.record(stand_in.kept, bits));
+        record.map_or(candidate.settings, |record| settings(&record, self.reference.update.depth_kind, &request))
+    }
+}
+
+/// A point without its number, its widths and its times.
+fn point(scheme: Scheme, configuration: &Configuration, frames: Vec<FrameError>) -> Point {
+    Point {
+        id: 0,
+        scheme,
+        lanes: configuration.kept.name(),
+        budget: String::new(),
+        bits: None,
+        rounding: None,
+        rung: configuration.rung.name(),
+        bytes: 0,
+        used_bits: 0,
+        saturated: 0,
+        run_time: None::<Time>,
+        compile_time: None,
+        stand_in: None,
+        summary: Summary::of(&frames),
+        frames,
+    }
+}
+
+/// What a certificate depends on, beside `tau_prop`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Arithmetic([u32; 6], bool, &'static str);
+
+impl Arithmetic {
+    fn of(candidate: &Candidate) -> Self {
+        let scale = &candidate.record.scales[0];
+        Self(
+            [
+                scale.acceleration_up,
+                scale.down,
+                scale.up,
+                scale.position_frac,
+                scale.velocity_frac,
+                scale.acceleration_frac,
+            ],
+            candidate.configuration.kept.lanes().acceleration,
+            candidate.settings.rounding.name(),
+        )
+    }
+}

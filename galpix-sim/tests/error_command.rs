@@ -1,0 +1,203 @@
+//! `galpix error` as a user or a script meets it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn galpix(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
+    command.current_dir(folder).arg("error").args(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// A run of a few points over a few frames.
+const TINY: [&str; 9] = [
+    "crossing",
+    "--quick",
+    "--frames",
+    "3",
+    "--lanes=still,full",
+    "--roundings=truncate,low-discrepancy",
+    "--rungs=none,hold",
+    "--out",
+    "here/deep",
+];
+
+fn number(value: &Value) -> Option<f64> {
+    value.as_f64()
+}
+
+#[test]
+fn page_values_and_document_say_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = galpix(folder.path(), &TINY);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout).lines().last(), Some("here/deep/error.html"));
+    let out = folder.path().join("here/deep");
+    assert_eq!(names(&out), ["error.csv", "error.html", "error.json"]);
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let (csv, page) = (read("error.csv"), read("error.html"));
+    let document: Value = serde_json::from_str(&read("error.json")).unwrap();
+    let source = &document["sources"][0];
+    let points = source["points"].as_array().unwrap();
+    assert!(document["command"].as_str().unwrap().starts_with("galpix error crossing --quick"));
+    assert_eq!(document["version"], env!("CARGO_PKG_VERSION"));
+
+    // Comma-separated values: a line a point, and sample-and-hold.
+    let mut lines = csv.lines();
+    let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), points.len() + 1);
+    let column = |name: &str| columns.iter().position(|column| *column == name).unwrap();
+    for (row, point) in rows.iter().zip(points) {
+        assert_eq!(row.len(), columns.len());
+        for (name, value) in [
+            ("id", &point["id"]),
+            ("bytes", &point["bytes"]),
+            ("compile_time_us", &point["compile_time"]["frame_us"]),
+            ("run_time_x_copy", &point["run_time"]["x_copy"]),
+            ("worst_px", &point["summary"]["worst_px"]),
+            ("bound_px", &point["summary"]["bound_px"]),
+            ("flip", &point["summary"]["flip"]),
+            ("missing_percent", &point["summary"]["missing_percent"]),
+        ] {
+            assert_eq!(row[column(name)].parse().ok(), number(value), "{name} of {}", point["id"]);
+        }
+        assert_eq!(row[column("lanes")], point["lanes"].as_str().unwrap());
+        let on_front = source["fronts"]["picture"].as_array().unwrap().contains(&point["id"]);
+        assert_eq!(row[column("front_picture")], on_front.to_string());
+    }
+    let hold = rows.last().unwrap();
+    assert_eq!((hold.len(), hold[column("scheme")]), (columns.len(), "hold"));
+    assert_eq!(hold[column("flip")].parse().ok(), number(&source["hold"]["flip"]));
+    assert_eq!(hold[column("saturated")], "");
+
+    // The page: needs nothing else, and has a row for each point and for each place on a front.
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("src="), "the page loads something");
+    assert_eq!(page.matches("<svg class=\"plot\"").count(), 7);
+    let floats = points.iter().filter(|point| point["scheme"] == "f32").count();
+    let fronts: usize =
+        ["position", "picture", "bytes"].map(|front| source["fronts"][front].as_array().unwrap().len()).iter().sum();
+    assert_eq!(page.matches("<tr><td>").count(), points.len() + fronts + floats);
+    for point in points.iter().filter(|point| point["scheme"] == "galpix") {
+        let flip = format!("<td>{:.4}</td>", point["summary"]["flip"].as_f64().unwrap());
+        assert!(page.contains(&flip), "FLIP of point {} is not on the page", point["id"]);
+    }
+}
+
+#[test]
+fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = galpix(folder.path(), &[&TINY[..7], &["--json"]].concat());
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(names(folder.path()).is_empty(), "without --out nothing is written");
+    let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
+    let source = &document["sources"][0];
+    let points = source["points"].as_array().unwrap();
+    let mut galpix = Vec::new();
+    for point in points {
+        assert!(["still", "full"].contains(&point["lanes"].as_str().unwrap()));
+        assert!(["none", "hold"].contains(&point["rung"].as_str().unwrap()));
+        assert!(point["compile_time"]["frame_us"].as_f64().unwrap() > 0.0);
+        if point["scheme"] == "galpix" {
+            assert!(point["run_time"]["x_copy"].as_f64().unwrap() > 0.0);
+            assert!(point["stand_in"].as_str().unwrap().starts_with(point["lanes"].as_str().unwrap()));
+            let worst = point["summary"]["worst_px"].as_f64().unwrap();
+            assert_eq!(point["saturated"], 0);
+            assert!(worst <= point["summary"]["bound_px"].as_f64().unwrap() + 1e-6, "{point}");
+            galpix.push((point["id"].as_u64().unwrap(), point["compile_time"]["frame_us"].as_f64().unwrap(), worst));
+        } else {
+            assert!(point["rounding"].is_null() && point["run_time"].is_null());
+        }
+    }
+    assert!(galpix.iter().any(|point| point.2 == 0.0) || galpix.len() >= 6, "{} points", galpix.len());
+    let front: Vec<u64> =
+        source["fronts"]["position"].as_array().unwrap().iter().map(|id| id.as_u64().unwrap()).collect();
+    assert!(!front.is_empty());
+    for &(id, time, error) in &galpix {
+        let beaten =
+            galpix.iter().any(|other| other.1 <= time && other.2 <= error && (other.1 < time || other.2 < error));
+        assert!(!(front.contains(&id) && beaten), "{id} is on the front and beaten");
+        let equal = galpix.iter().any(|other| front.contains(&other.0) && other.1 == time && other.2 == error);
+        assert!(beaten || equal, "{id} is not on the front and not beaten");
+    }
+    // Every cause is there for every frame, and the update itself is without error at each rate.
+    assert_eq!(source["causes"].as_array().unwrap().len(), 3);
+    let rates = source["rates"].as_array().unwrap();
+    assert_eq!(rates.iter().map(|rate| rate["every"].as_u64().unwrap()).collect::<Vec<_>>(), [1, 2, 4]);
+    assert_eq!((number(&rates[0]["flip"]), number(&rates[0]["flip_hold"])), (Some(0.0), Some(0.0)));
+    for rate in &rates[1..] {
+        assert_eq!(rate["frames"], 4);
+        assert!(
+            number(&rate["flip"]) < number(&rate["flip_hold"]),
+            "galpix is worse than holding a moving scene: {rate}"
+        );
+    }
+    // The causes of a frame add up to at least the error.
+    for frame in source["causes"].as_array().unwrap() {
+        let part = |name: &str| frame[name].as_f64().unwrap();
+        let parts = ["taylor_px", "left_out_px", "quantisation_px", "drift_px", "saturation_px", "snap_px"];
+        let sum: f64 = parts.iter().map(|name| part(name)).sum();
+        assert!(part("all_px") <= sum + 1e-9 && part("all_px") > 0.0, "{frame}");
+        assert!(part("taylor_px") < 1e-6 && part("snap_px") <= 0.5, "{frame}");
+    }
+}
+
+#[test]
+fn a_capture_is_compared_by_age() {
+    let folder = tempfile::tempdir().unwrap();
+    let marbles = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles");
+    let marbles = marbles.to_str().unwrap();
+    let output = galpix(folder.path(), &[marbles, "--quick", "--lanes", "velocity", "--rungs", "hold", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let source = &document["sources"][0];
+    assert!(source["rates"].as_array().unwrap().is_empty());
+    assert!(!source["ages"].as_array().unwrap().is_empty());
+    assert!(source["points"][0]["summary"]["truth_worst_px"].is_null());
+    assert!(source["causes"][0]["taylor_px"].is_null());
+    let left_out = source["left_out"].as_array().unwrap();
+    assert!(left_out.iter().any(|text| text.as_str().unwrap().contains("not known")), "{left_out:?}");
+}
+
+#[test]
+fn what_cannot_be_used_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "in the way").unwrap();
+    std::fs::write(folder.path().join("capture.toml"), "this is no manifest").unwrap();
+    for (arguments, words) in [
+        (["crossing", "nonsense"].as_slice(), ["nonsense", "galpix scenes"].as_slice()),
+        (&["crossing", "./capture.toml"], &["capture.toml"]),
+        (&["crossing", "--prop", "1"], &["this budget cannot exist", "2 frames or more"]),
+        (&["crossing", "--extent", "0"], &["this budget cannot exist"]),
+        (&["crossing", "--extent", "4000000000"], &["this budget cannot exist"]),
+        (&["crossing", "--rungs", "push-pull"], &["not built yet"]),
+        (&["crossing", "--lanes", "wheels"], &["wheels"]),
+        (&["crossing", "--quick", "--full"], &["cannot be used with"]),
+        (&["crossing", "--quick", "--out", "file/below"], &["cannot be written", "--out"]),
+        (&[], &["SOURCE"]),
+    ] {
+        let output = galpix(folder.path(), arguments);
+        let sentence = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+        assert!(sentence.starts_with("galpix: ") && sentence.lines().count() == 1, "{arguments:?}: {sentence:?}");
+        for word in words {
+            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
+        }
+        assert_eq!(names(folder.path()), ["capture.toml", "file"], "{arguments:?}");
+    }
+}
