@@ -193,7 +193,7 @@ fn pictures(shown: &[(&CaseReport, &RoundingReport)], lines: &mut Vec<String>) {
         .collect();
     if !rows.is_empty() {
         lines.push(format!(
-            "{:<17}{:>6}{:>10}{:>10}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}  verdict (all rungs together)",
+            "{:<17}{:>6}{:>10}{:>10}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}  verdict, all rungs",
             "pictures", "frames", "moved", "settled", "lost", "collided", "holes", "px", "bound", "clamped"
         ));
         lines.extend(rows);

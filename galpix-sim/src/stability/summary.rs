@@ -58,6 +58,8 @@ pub struct RoundingReport {
     pub clamped: u64,
     /// The paths together; nothing if the case has none.
     pub worst: Option<Shares>,
+    /// The largest drift of any path up to each frame, in pixels.
+    pub drift_up_to_px: Vec<f64>,
     /// Path by path.
     pub paths: Vec<PathReport>,
     /// Picture by picture, all rungs together.
@@ -158,6 +160,14 @@ impl RoundingReport {
         });
         let findings = in_paths.chain(in_pictures).collect();
         let all = paths.iter().map(|path| path.worst).reduce(Shares::with);
+        let mut drift_up_to_px: Vec<f64> = Vec::new();
+        for row in paths.iter().flat_map(|path| &path.series) {
+            let frame = row.frame as usize;
+            drift_up_to_px.resize(drift_up_to_px.len().max(frame + 1), 0.0);
+            drift_up_to_px[frame] = drift_up_to_px[frame].max(row.drift_px.abs());
+        }
+        (1..drift_up_to_px.len())
+            .for_each(|frame| drift_up_to_px[frame] = drift_up_to_px[frame].max(drift_up_to_px[frame - 1]));
         // One path a case is told frame by frame.
         let farthest = (0..paths.len()).max_by(|&one, &two| {
             let key = |path: &PathReport| (path.verdict == Verdict::Unstable, path.worst.total_px);
@@ -177,6 +187,7 @@ impl RoundingReport {
             frames,
             clamped,
             worst: all,
+            drift_up_to_px,
             paths,
             pictures: together(&pictures),
         }

@@ -9,7 +9,7 @@ use crate::report::text::Text;
 pub fn plots(case: &CaseReport, shown: &RoundingReport) -> String {
     let mut parts = Vec::new();
     if let Some(path) = shown.told() {
-        parts.extend([by_cause(case, path), beside_floats(case, path), by_rounding(case, path)]);
+        parts.extend([by_cause(case, path), beside_floats(case, path), by_rounding(case)]);
     }
     if !shown.pictures.is_empty() {
         parts.push(tallies(case, shown));
@@ -110,18 +110,20 @@ fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
     figure(case, "The engine beside floats", "px", &remark(&text, path), lines, true)
 }
 
-/// The drift of the same path with each rounding.
-fn by_rounding(case: &CaseReport, path: &PathReport) -> String {
+/// The largest drift so far with each rounding.
+fn by_rounding(case: &CaseReport) -> String {
     let inks = [Ink::Hold, Ink::Collided, Ink::Galpix, Ink::Filled];
-    let told = case.roundings.iter().zip(inks).filter_map(|(one, ink)| {
-        let told = one.told().filter(|told| told.name == path.name)?;
-        Some(line(one.rounding, ink, Stroke::Solid, told, |row| Some(row.drift_px)))
+    let lines = case.roundings.iter().zip(inks).map(|(one, ink)| Line {
+        name: one.rounding.to_owned(),
+        ink,
+        stroke: Stroke::Solid,
+        points: (0..).zip(one.drift_up_to_px.iter().map(|&drift| Some(drift))).collect(),
     });
-    let mut lines: Vec<Line> = told.collect();
-    if !lines.iter().any(|line| line.points.iter().any(|&(_, value)| value.is_some_and(|value| value != 0.0))) {
+    let mut lines: Vec<Line> = lines.collect();
+    if !lines.iter().any(says_something) {
         lines.clear();
     }
-    figure(case, "Drift with each rounding", "px", &remark("Of the same path, with its sign.", path), lines, false)
+    figure(case, "Drift with each rounding", "px", "The largest of any path up to this frame.", lines, false)
 }
 
 /// All pictures of a case together.
