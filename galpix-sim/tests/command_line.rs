@@ -422,3 +422,66 @@ fn an_output_that_is_full_is_exit_code_1() {
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).starts_with("galpix: standard output cannot be written"), "{}", text(&output.stderr));
 }
+
+#[test]
+fn a_budget_says_its_certificate_by_cause_and_the_smallest_for_an_error() {
+    let folder = folder();
+    let paper = json(folder.path(), &["budget", "--json"]);
+    let frames = paper["certificate"]["frames"].as_array().expect("frame by frame");
+    assert_eq!(frames.len(), 16);
+    let last = &frames[15];
+    let parts = ["position_px", "velocity_px", "acceleration_px"].map(|part| last[part].as_f64().expect("a part"));
+    assert_eq!(parts, [0.03125, 0.0625, 0.5]);
+    assert_eq!(paper["certificate"]["quantisation_px"], 0.59375);
+    assert_eq!(paper["roundings"].as_array().expect("all roundings").len(), 4);
+    let bits = |arguments: &[&str]| {
+        let all = [&["budget", "--json", "--max-error", "1"], arguments].concat();
+        json(folder.path(), &all)["motion_bits_per_component"].as_u64().expect("bits")
+    };
+    assert_eq!(bits(&[]), 36);
+    assert_eq!(bits(&["--rounding", "truncate"]), 37);
+    assert_eq!(bits(&["--rounding", "nearest"]), 37);
+    refused(folder.path(), &["budget", "--max-error", "0.0000001"], &["no budget certifies", "ask for a larger error"]);
+    refused(folder.path(), &["budget", "--max-error", "-1"], &["positive"]);
+    refused(folder.path(), &["budget", "--max-error", "1", "--shave", "velocity-int=1"], &["--shave"]);
+}
+
+#[test]
+fn vectors_are_written_whole_and_again_the_same() {
+    let folder = folder();
+    let manifest = |out: &str, seed: &str| -> Value {
+        let path = done(folder.path(), &["vectors", "--out", out, "--seed", seed]);
+        let text = std::fs::read_to_string(folder.path().join(path.trim())).expect("the manifest");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let (one, again, other) = (manifest("a", "0"), manifest("b", "0"), manifest("c", "1"));
+    assert_eq!(one, again);
+    assert_ne!(one["cases"], other["cases"]);
+    let kinds: BTreeSet<&str> =
+        one["cases"].as_array().expect("cases").iter().filter_map(|case| case["kind"].as_str()).collect();
+    assert_eq!(kinds, BTreeSet::from(["step", "resolve", "edge", "fill", "frame"]));
+    for case in one["cases"].as_array().expect("cases") {
+        for file in case["files"].as_array().expect("files") {
+            assert!(folder.path().join("a").join(file["path"].as_str().expect("a path")).is_file(), "{file}");
+        }
+    }
+    assert!(folder.path().join("a/schema.json").is_file() && folder.path().join("a/hashes.txt").is_file());
+    std::fs::write(folder.path().join("file"), "kept").expect("a file");
+    refused(folder.path(), &["vectors", "--out", "file"], &["cannot be written", "--out"]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("file")).expect("the file"), "kept");
+}
+
+#[test]
+fn a_plan_says_what_is_not_needed() {
+    let folder = folder();
+    let still = json(folder.path(), &["plan", "still", "--max-error", "0.5", "--json"]);
+    assert_eq!((&still["plan"]["motion"]["velocity"], &still["plan"]["depth_bits"]), (&Value::Bool(false), &0.into()));
+    assert!(still["plan"]["code"].as_str().expect("Rust").contains("const LANES: Lanes = Lanes::NONE;"));
+    let text = done(folder.path(), &["plan", "drift", "--max-error", "0.5"]);
+    for word in ["certified px", "measured px", "impl Layout for PlannedDrift", "full budget"] {
+        assert!(text.contains(word), "{word:?} is not in {text}");
+    }
+    refused(folder.path(), &["plan", "ball", "--max-error", "0.00000001"], &["no budget certifies"]);
+    refused(folder.path(), &["plan", "ball"], &["--max-error"]);
+    refused(folder.path(), &["plan", "nowhere", "--max-error", "1"], &["nowhere", "galpix scenes"]);
+}
