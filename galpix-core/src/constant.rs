@@ -29,6 +29,12 @@ const fn negative(number: i32) -> u32 {
     (number >> 31) as u32
 }
 
+/// All ones for a number that is not 0, else 0. At most 2^31.
+#[inline(always)]
+const fn not_zero(number: u32) -> u32 {
+    negative(number.wrapping_neg() as i32)
+}
+
 /// All ones where `a < b`, else 0. Both below 2^31.
 #[inline(always)]
 const fn below(a: u32, b: u32) -> u32 {

@@ -4,7 +4,7 @@
 //! the mean of two; with `p, p, p, p` it is `(4p + 2) >> 2 = p`. So one way of calculating does for one, two and four
 //! neighbours, bit by bit. The sum of four fields of 30 bits stays within 32.
 
-use super::{below, choose, negative, opaque};
+use super::{below, choose, negative, not_zero, opaque};
 use crate::colour::Colour;
 use crate::edge::on_edge;
 use crate::fill::{FILLED, each_moving_field};
@@ -78,10 +78,10 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
     #[inline(always)]
     pub fn mean(&self, x: i32, y: i32, cell: u32) -> (Words, u32) {
         let grid = self.back.grid();
-        let column = |x: i32| negative(x - grid.width() as i32) & !negative(x);
+        // Whether there is a column to the left and to the right: not by a difference, which one compiler took for a product.
+        let (left, right) = (not_zero(x as u32), not_zero(x as u32 ^ (grid.width() - 1)));
         // Above the first and below the last row: the row itself.
         let row = |y: i32| grid.row(y).map_or((cell.wrapping_sub(x as u32), 0), |row| (row, u32::MAX));
-        let (left, right) = (column(x - 1), column(x + 1));
         let rows = [row(y - 1), row(y), row(y + 1)];
         let place = |dx: i32, column: u32, (row, exists): (u32, u32)| Place {
             cell: row.wrapping_add((x + (dx & column as i32)) as u32),
