@@ -19,7 +19,7 @@ const PAPER: Demand = Demand { extent: 1024, recog: 8, prop: 16 };
 fn no_case_is_unstable_under_any_budget_and_rounding() {
     let odd = Demand { extent: 200, recog: 7, prop: 11 };
     let small = Demand { extent: 64, recog: 8, prop: 2 };
-    for demand in [PAPER, odd, small, Demand { extent: 2048, recog: 8, prop: 64 }] {
+    for demand in [PAPER, odd, small, Demand { extent: 512, recog: 8, prop: 32 }] {
         let report = stability::run(&Request { demand, ..Request::default() }, |_| ()).unwrap();
         assert_eq!(report.cases.len(), ALL.len());
         for case in &report.cases {

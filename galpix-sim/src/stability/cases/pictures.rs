@@ -87,14 +87,17 @@ pub fn every_field(setting: &Setting) -> Vec<Picture> {
     vec![Picture { shaded: true, ..picture("3^8 combinations", [81, 81], setting.demand.prop, galpixel) }]
 }
 
+/// A name, which cells go one way, and how fast they go.
+type Board = (&'static str, fn(u32, u32) -> bool, [f64; 2]);
+
 /// Velocities of one and a half cells.
 pub fn checkerboard(setting: &Setting) -> Vec<Picture> {
-    let boards: [(&str, fn(u32, u32) -> bool, [f64; 2]); 3] = [
+    let boards: [Board; 3] = [
         ("along rows", |x, y| (x + y).is_multiple_of(2), [1.5, 0.0]),
         ("along columns", |x, y| (x + y).is_multiple_of(2), [0.0, 1.5]),
         ("across, rows against rows", |_, y| y.is_multiple_of(2), [1.25, 0.75]),
     ];
-    let of = |(name, way, [vx, vy]): (&str, fn(u32, u32) -> bool, [f64; 2])| {
+    let of = |(name, way, [vx, vy]): Board| {
         picture(name, [65, 33], setting.demand.prop, move |x, y| {
             let sign = if way(x, y) { 1.0 } else { -1.0 };
             moving(x, y, [sign * vx, sign * vy], [0.0, 0.0])
