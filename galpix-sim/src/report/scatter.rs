@@ -94,8 +94,8 @@ fn draw(plot: &Scatter, x: &Axis, y: &Axis, drawing: &mut String) -> Drawn {
     let mut chart = ChartBuilder::on(&root)
         .margin_top(10 * FINE)
         .margin_right(16 * FINE)
-        .x_label_area_size(44 * FINE)
-        .y_label_area_size(66 * FINE)
+        .x_label_area_size(50 * FINE)
+        .y_label_area_size(72 * FINE)
         .build_cartesian_2d(Ticked::from(x), Ticked::from(y))?;
     let font = |size: u32| ("sans-serif", size * FINE).into_font().color(&colour(Ink::Label));
     chart
@@ -106,8 +106,8 @@ fn draw(plot: &Scatter, x: &Axis, y: &Axis, drawing: &mut String) -> Drawn {
         .set_all_tick_mark_size(4 * FINE)
         .x_label_formatter(&|place| x.label(*place))
         .y_label_formatter(&|place| y.label(*place))
-        .label_style(font(13))
-        .axis_desc_style(font(13))
+        .label_style(font(15))
+        .axis_desc_style(font(15))
         .x_desc(plot.x.0.as_str())
         .y_desc(plot.y.0.as_str())
         .draw()?;

@@ -56,8 +56,8 @@ fn draw(stack: &Stack, y: &Axis, drawing: &mut String) -> Drawn {
     let mut chart = ChartBuilder::on(&root)
         .margin_top(10 * FINE)
         .margin_right(16 * FINE)
-        .x_label_area_size(44 * FINE)
-        .y_label_area_size(66 * FINE)
+        .x_label_area_size(50 * FINE)
+        .y_label_area_size(72 * FINE)
         .build_cartesian_2d(Ticked::new(-0.6..bars as f64 - 0.4, ticks), Ticked::from(y))?;
     let font = |size: u32| ("sans-serif", size * FINE).into_font().color(&colour(Ink::Label));
     let frame = |bar: &f64| stack.frames.get(bar.round() as usize).map_or_else(String::new, u32::to_string);
@@ -70,8 +70,8 @@ fn draw(stack: &Stack, y: &Axis, drawing: &mut String) -> Drawn {
         .set_all_tick_mark_size(4 * FINE)
         .x_label_formatter(&frame)
         .y_label_formatter(&|place| y.label(*place))
-        .label_style(font(13))
-        .axis_desc_style(font(13))
+        .label_style(font(15))
+        .axis_desc_style(font(15))
         .x_desc("frames since the update")
         .y_desc(stack.y.as_str())
         .draw()?;

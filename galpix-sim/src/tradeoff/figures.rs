@@ -1,8 +1,6 @@
 //! What the plots of a source show.
 
-use galpix_core::fill::Rung;
-use galpix_core::rounding::Rounding;
-
+use super::legend::{block_key, ink, key, line_key, radius, shape};
 use super::report::{Point, Scheme, SourceReport};
 use crate::report::axis::Scale;
 use crate::report::scatter::{self, Course, Mark, Scatter, Shape};
@@ -31,43 +29,6 @@ pub fn all(source: &SourceReport) -> String {
 pub fn letter(place: usize) -> String {
     let letter = char::from(b'A' + (place % 26) as u8);
     if place < 26 { letter.to_string() } else { format!("{letter}{}", place / 26) }
-}
-
-fn ink(point: &Point) -> Ink {
-    if point.scheme == Scheme::F32 {
-        return Ink::Label;
-    }
-    rung_ink(Rung::ALL.into_iter().find(|rung| rung.name() == point.rung).unwrap_or_default())
-}
-
-const fn rung_ink(rung: Rung) -> Ink {
-    match rung {
-        Rung::None => Ink::Collided,
-        Rung::Hold => Ink::Hold,
-        Rung::Debris => Ink::Holes,
-        Rung::Bullet => Ink::Known,
-        Rung::Galdebris => Ink::Filled,
-        Rung::Extend => Ink::Galpix,
-    }
-}
-
-fn shape(point: &Point) -> Shape {
-    let rounding = Rounding::ALL.into_iter().find(|rounding| Some(rounding.name()) == point.rounding);
-    rounding.map_or(Shape::Cross, rounding_shape)
-}
-
-const fn rounding_shape(rounding: Rounding) -> Shape {
-    match rounding {
-        Rounding::Truncate => Shape::Triangle,
-        Rounding::Nearest => Shape::Square,
-        Rounding::LowDiscrepancy => Shape::Disc,
-        Rounding::Searched => Shape::Diamond,
-    }
-}
-
-/// The area of a mark grows with the bytes.
-fn radius(bytes: usize) -> f64 {
-    1.35 * (bytes as f64).sqrt()
 }
 
 type Figures<'f> = &'f dyn Fn(&Point) -> Option<(f64, f64)>;
@@ -267,44 +228,4 @@ fn figure(title: &str, legend: &str, drawing: Option<String>, remark: &str) -> S
         None => "<p class=\"nothing\">There is no true picture to compare with.</p>".to_owned(),
     };
     format!("<figure><h3>{}</h3>{body}<figcaption>{}</figcaption></figure>", Text(title), Text(remark))
-}
-
-fn line_key(name: &str, ink: Ink, dashed: bool) -> String {
-    let kind = if dashed { "key dashed" } else { "key" };
-    format!("<span><i class=\"{kind}\" style=\"--ink:var(--{})\"></i>{}</span> ", ink.name(), Text(name))
-}
-
-fn block_key(name: &str, ink: Ink) -> String {
-    format!("<span>{}{}</span> ", scatter::key(Shape::Square, ink, 6.0), Text(name))
-}
-
-/// The legend of the points: rungs by colour, roundings by shape, bytes by size.
-fn key(source: &SourceReport, bounds: bool) -> String {
-    let entry =
-        |shape, ink, radius, name: &str| format!("<span>{}{}</span> ", scatter::key(shape, ink, radius), Text(name));
-    let mut legend = String::new();
-    for rung in Rung::ALL {
-        if source.points.iter().any(|point| point.scheme == Scheme::Galpix && point.rung == rung.name()) {
-            legend += &entry(Shape::Disc, rung_ink(rung), 5.0, rung.name());
-        }
-    }
-    for rounding in Rounding::ALL {
-        if source.points.iter().any(|point| point.rounding == Some(rounding.name())) {
-            legend += &entry(rounding_shape(rounding), Ink::Axis, 5.0, rounding.name());
-        }
-    }
-    if source.points.iter().any(|point| point.scheme == Scheme::F32) {
-        legend += &entry(Shape::Cross, Ink::Label, 5.0, "f32");
-    }
-    let sizes = source.points.iter().map(|point| point.bytes);
-    if let (Some(least), Some(most)) = (sizes.clone().min(), sizes.max()) {
-        for bytes in [least, most] {
-            legend += &entry(Shape::Disc, Ink::Axis, radius(bytes), &format!("{bytes} bytes"));
-        }
-    }
-    legend += &line_key("front", Ink::Guide, false);
-    if bounds {
-        legend += &line_key("at most", Ink::Bound, false);
-    }
-    legend
 }

@@ -14,6 +14,7 @@ pub mod csv;
 pub mod design;
 mod figures;
 pub mod float;
+mod legend;
 pub mod measure;
 pub mod page;
 pub mod pareto;

@@ -78,7 +78,7 @@ fn gain(source: &SourceReport) -> String {
     needed.dedup();
     let one_of = |every: u32| match every {
         1 => "every frame".to_owned(),
-        every => format!("1 frame in {every}"),
+        every => every.to_string(),
     };
     let bought = needed.iter().map(|&needed| {
         let rates = source.rates.iter().filter(better).filter(|rate| rate.hold_needs_every == needed);
