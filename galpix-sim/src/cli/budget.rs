@@ -238,12 +238,12 @@ fn text(printed: &Printed) -> String {
         ));
     }
     text.push_str(&format!(
-        "  quantisation after {} frames {:.4} + largest drift {:.4} = {:.4} px; {}\n",
-        report.prop,
+        "up to tau_prop, from {}\n  quantisation of r, v, a  {:.4} px\n  rounding drift           {:.4} px\n  total                    \
+         {:.4} px\n",
+        method(certificate),
         certificate.quantisation_px,
         certificate.drift_px,
         certificate.total_px,
-        method(certificate)
     ));
     text.push_str("the same widths with each rounding\n");
     for other in &printed.roundings {
