@@ -29,6 +29,9 @@ struct Pixel<const V: usize, const A: usize, const L: usize> {
     argb: u32,
 }
 
+/// What a cell shows, and its offset if a pixel is there.
+pub type Cell = ([u8; 3], Option<[f32; 2]>);
+
 /// Memory for one map and its follower, for any lanes.
 pub trait Floats {
     /// Bytes of a pixel.
@@ -37,8 +40,8 @@ pub trait Floats {
     fn load(&mut self, update: &Update);
     /// Makes the next frame and shows it; `winners`, if not empty, gets the source of each cell.
     fn step(&mut self, rung: Rung, winners: &mut [u32]);
-    /// Every pixel of the map: what it shows, and its offset if something is there.
-    fn cells(&self) -> Vec<([u8; 3], Option<[f32; 2]>)>;
+    /// Every cell of the map.
+    fn cells(&self) -> Vec<Cell>;
 }
 
 struct Maps<const V: usize, const A: usize, const L: usize> {
@@ -106,18 +109,18 @@ impl<const V: usize, const A: usize, const L: usize> Pixel<V, A, L> {
     #[inline(always)]
     fn step(&mut self) -> [i32; 2] {
         let mut cells = [0; 2];
-        for axis in 0..V {
-            let a = if axis < A { self.acceleration[axis] } else { 0.0 };
-            let way = self.velocity[axis] + 0.5 * a;
-            if axis < 2 {
+        for (axis, velocity) in self.velocity.iter_mut().enumerate() {
+            let a = self.acceleration.get(axis).copied().unwrap_or(0.0);
+            let way = *velocity + 0.5 * a;
+            if let Some(cells) = cells.get_mut(axis) {
                 let position = self.offset[axis] + way;
                 let whole = (position + 0.5).floor();
                 self.offset[axis] = position - whole;
-                cells[axis] = whole as i32;
+                *cells = whole as i32;
             } else {
                 self.depth = (self.depth + way).clamp(0.0, 1.0);
             }
-            self.velocity[axis] += a;
+            *velocity += a;
         }
         if L == 2 {
             let level = self.light[0] + self.light[1];
@@ -179,7 +182,7 @@ impl<const V: usize, const A: usize, const L: usize> Floats for Maps<V, A, L> {
         std::mem::swap(&mut self.front, &mut self.back);
     }
 
-    fn cells(&self) -> Vec<([u8; 3], Option<[f32; 2]>)> {
+    fn cells(&self) -> Vec<Cell> {
         let cell = |pixel: &Pixel<V, A, L>| {
             let [_, rgb @ ..] = pixel.argb.to_be_bytes();
             (rgb, pixel.present().then_some(pixel.offset))
@@ -216,15 +219,16 @@ pub fn run(update: &Update, kept: Kept, rung: Rung, frames: u32, wanted: &[u32],
     }
 }
 
-fn frame(update: &Update, number: u32, cells: &[([u8; 3], Option<[f32; 2]>)], origins: &[u32]) -> FloatFrame {
+fn frame(update: &Update, number: u32, cells: &[Cell], origins: &[u32]) -> FloatFrame {
     let (width, height) = (update.display_width(), update.display_height());
     let rows = || (0..height).map(|y| (y + update.wings.top) * update.width + update.wings.left);
     let pixels = rows().flat_map(|row| cells[row..row + width].iter().map(|cell| cell.0)).collect();
     let reached = rows().flat_map(|row| origins[row..row + width].iter().map(|&origin| origin != NOBODY)).collect();
-    let place = |(index, (&(_, offset), &origin)): (usize, (&([u8; 3], Option<[f32; 2]>), &u32))| {
-        let [x, y] = offset.filter(|_| origin != NOBODY)?.map(f64::from);
+    let place = |index: usize| {
+        let origin = origins[index];
+        let [x, y] = cells[index].1.filter(|_| origin != NOBODY)?.map(f64::from);
         Some((origin, [(index % update.width) as f64 + x, (index / update.width) as f64 + y]))
     };
-    let places = cells.iter().zip(origins).enumerate().filter_map(place).collect();
+    let places = (0..cells.len()).filter_map(place).collect();
     FloatFrame { number, picture: Picture { width, height, pixels }, reached, places }
 }

@@ -36,7 +36,7 @@ use crate::update::Known;
 use design::{Axes, Configuration, Extent, Kept, Step};
 use ranges::Ranges;
 use reference::Reference;
-use report::{DemandReport, Fronts, SourceReport, Summary};
+use report::{DemandReport, Fronts, Point, Scheme, SourceReport, Summary};
 use timing::Effort;
 
 /// What to measure.
@@ -166,15 +166,14 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
 }
 
 /// The three fronts, as numbers of points. The floats are beside them, not on them.
-fn fronts(points: &[report::Point]) -> Fronts {
-    let front = |cost: &dyn Fn(&report::Point) -> (Option<f64>, Option<f64>)| {
-        let costs: Vec<_> = points
-            .iter()
-            .map(|point| if point.scheme == report::Scheme::Galpix { cost(point) } else { (None, None) })
-            .collect();
+fn fronts(points: &[Point]) -> Fronts {
+    type Cost<'c> = &'c dyn Fn(&Point) -> (Option<f64>, Option<f64>);
+    let front = |cost: Cost<'_>| {
+        let cost = |point: &Point| if point.scheme == Scheme::Galpix { cost(point) } else { (None, None) };
+        let costs: Vec<_> = points.iter().map(cost).collect();
         pareto::front(&costs).into_iter().map(|index| points[index].id).collect()
     };
-    let time = |point: &report::Point| point.compile_time.map(|time| time.frame_us);
+    let time = |point: &Point| point.compile_time.map(|time| time.frame_us);
     Fronts {
         position: front(&|point| (time(point), point.summary.worst_px)),
         picture: front(&|point| (time(point), point.summary.flip)),

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::design::{Configuration, Kept, Step};
 use super::report::{FrameError, Point, Scheme, Summary};
-use super::timing::{Contender, Engine, InFloats, Time, race};
+use super::timing::{Engine, InFloats, Maker, Time, race};
 use super::{Study, Work, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::experiment::{ExperimentError, Request, settings};
@@ -35,8 +35,6 @@ impl Candidate {
         what(self) == what(other)
     }
 }
-
-type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender>> + 'm>;
 
 impl Study<'_> {
     /// The record of some lanes under a budget.

@@ -135,6 +135,9 @@ impl Contender for InFloats {
     }
 }
 
+/// Makes a contender when its turn comes; `None` where there cannot be one.
+pub type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender>> + 'm>;
+
 /// How often things are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Effort {
@@ -145,12 +148,7 @@ pub struct Effort {
 }
 
 /// Times the contenders that `make` makes; they live for a turn only, so that their memory need not stand side by side.
-pub fn race(
-    update: &Update,
-    effort: Effort,
-    make: &[Box<dyn Fn() -> Option<Box<dyn Contender>> + '_>],
-    mut done: impl FnMut(),
-) -> Vec<Option<Time>> {
+pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl FnMut()) -> Vec<Option<Time>> {
     let mut rounds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); make.len()];
     let mut copy = Copy::default();
     for round in 0..=effort.rounds {
