@@ -64,7 +64,7 @@ pub struct Certificate {
     pub quantisation_px: f64,
     /// The largest drift after any frame up to `tau_prop`, in pixels.
     pub drift_px: f64,
-    /// Their sum.
+    /// The largest sum of both after any frame up to `tau_prop`.
     pub total_px: f64,
     /// The largest drift if the update enters at any frame of the counter. Differs from `drift_px` for searched tables only,
     /// which are certified for updates that enter at frame 0.
@@ -108,7 +108,7 @@ impl Certificate {
         Self {
             quantisation_px,
             drift_px,
-            total_px: quantisation_px + drift_px,
+            total_px: frames.iter().map(FrameBound::total_px).fold(0.0, f64::max),
             drift_any_phase_px: drift.any_phase as f64 * unit,
             method: drift.method,
             classes: drift.classes,

@@ -27,6 +27,18 @@ pub struct Drift {
 }
 
 impl Drift {
+    /// The drift over some states only, from the first phase on: at most that of all of them.
+    pub fn sampled(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
+        let down = scale.down;
+        let accelerations = if has_acceleration { 1usize << down.saturating_sub(scale.acceleration_up) } else { 1 };
+        let thresholds: Vec<i32> = (0..prop).map(|n| rounding.threshold(n, down)).collect();
+        let some = (0..accelerations).step_by(accelerations.div_ceil(32));
+        let runs = some.map(|a| worst_of(down, (a << scale.acceleration_up) as i32, &thresholds));
+        let by_frame = runs.reduce(larger).unwrap_or_default();
+        let any_phase = by_frame.iter().copied().max().unwrap_or(0);
+        Self { by_frame, any_phase, method: Method::Enumerated, classes: 0, phases: 1 }
+    }
+
     /// The drift of a component over `prop` frames.
     pub fn of(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
         let down = scale.down;
@@ -59,16 +71,6 @@ impl Drift {
         let by_frame = if rounding == Rounding::Searched { aligned } else { all };
         Self { by_frame, any_phase, method: Method::Enumerated, classes, phases }
     }
-}
-
-/// A lower bound of the drift: over some states only, from the first phase on.
-pub fn sampled(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> i64 {
-    let down = scale.down;
-    let accelerations = if has_acceleration { 1usize << down.saturating_sub(scale.acceleration_up) } else { 1 };
-    let thresholds: Vec<i32> = (0..prop).map(|n| rounding.threshold(n, down)).collect();
-    let some = (0..accelerations).step_by(accelerations.div_ceil(32));
-    let worst = some.flat_map(|a| worst_of(down, (a << scale.acceleration_up) as i32, &thresholds));
-    worst.max().unwrap_or(0)
 }
 
 fn larger(mut one: Vec<i64>, other: Vec<i64>) -> Vec<i64> {

@@ -6,7 +6,7 @@ use galpix_core::budget::Component;
 use galpix_core::record::Scale;
 use galpix_core::rounding::Rounding;
 
-use super::drift::{Drift, MOST_DOWN, sampled};
+use super::drift::{Drift, MOST_DOWN};
 use super::{Certificate, quantisation};
 
 /// Fraction bits of a position, and of a velocity, that are tried: what [`Component::checked`] can let pass.
@@ -43,7 +43,7 @@ pub fn smallest(
     let has_acceleration = ranges.has_acceleration();
     let mut candidates: Vec<Component> = candidates(ranges).collect();
     candidates.sort_by_key(|component| component.motion_bits());
-    let mut drifts: HashMap<(u32, u32), (i64, Option<Drift>)> = HashMap::new();
+    let mut drifts: HashMap<(u32, u32), (Drift, Option<Drift>)> = HashMap::new();
     let mut found: Option<(Component, Certificate)> = None;
     let mut best = f64::INFINITY;
     for component in candidates {
@@ -57,10 +57,10 @@ pub fn smallest(
             continue;
         }
         // What some states drift tells most candidates apart; all states are run for those that are left.
-        let (least, drift) = drifts
+        let (some, drift) = drifts
             .entry((scale.down, scale.acceleration_up))
-            .or_insert_with(|| (sampled(&scale, has_acceleration, rounding, prop), None));
-        let at_least = quantised + *least as f64 * 0.5f64.powi((scale.position_frac + scale.down) as i32);
+            .or_insert_with(|| (Drift::sampled(&scale, has_acceleration, rounding, prop), None));
+        let at_least = Certificate::with(&scale, has_acceleration, prop, some).total_px;
         best = best.min(at_least);
         if at_least > max_error {
             continue;

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::choices::Extrapolation;
 use super::{CliError, check, print, say};
 use crate::capture::ImportOptions;
+use crate::certificate::FrameBound;
 use crate::experiment::{self, FrameReport, PositionReport, Request, RunReport, Shown, Source, TruthReport};
 use crate::film::{self, Colours};
 use crate::picture::Picture;
@@ -144,9 +145,7 @@ fn tell(source: &Source, request: &Request, bar: &indicatif::ProgressBar) -> Res
             drift_px: run.certificate.drift_px,
             total_px: run.certificate.total_px,
             holds: run.certificate.keeps_one_pixel(),
-            per_frame_px: std::iter::once(0.0)
-                .chain(run.certificate.frames.iter().map(|frame| frame.quantisation_px + frame.drift_px))
-                .collect(),
+            per_frame_px: std::iter::once(0.0).chain(run.certificate.frames.iter().map(FrameBound::total_px)).collect(),
         }),
         film_apng,
         rows: run.frames.iter().map(row).collect(),
