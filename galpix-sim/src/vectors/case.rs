@@ -366,7 +366,7 @@ pub fn schema() -> serde_json::Value {
     #[allow(dead_code)]
     enum File {
         Manifest(Manifest),
-        Case(Case),
+        Case(Box<Case>),
     }
     let settings = schemars::generate::SchemaSettings::draft2020_12().for_serialize();
     settings.into_generator().into_root_schema_for::<File>().into()

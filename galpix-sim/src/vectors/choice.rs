@@ -129,6 +129,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
             }
         }
         stage_cases(&mut cases, seed, model)?;
+        threshold_cases(&mut cases, seed, model)?;
     }
     Ok(cases)
 }
@@ -173,6 +174,19 @@ fn stage_cases(cases: &mut Vec<Case>, seed: u64, model: &Model) -> Result<(), Ru
             let about = format!("one frame of a map that shows {}: {kind} alone", picture.name());
             cases.push(Case { name: format!("{kind}-{suffix}"), about, content });
         }
+    }
+    Ok(())
+}
+
+/// Edge maps with the least and the greatest threshold: what is an edge by its class alone, and what by any bend.
+fn threshold_cases(cases: &mut Vec<Case>, seed: u64, model: &Model) -> Result<(), RunError> {
+    for (word, edge_threshold) in [("any-bend", 0), ("class-alone", u32::MAX)] {
+        let settings = Settings { edge_threshold, ..Settings::for_depth(model.depth_bits) };
+        let plan = Plan { picture: Picture::Random, grid: SHAPES[3], settings, frame: 0, frames: 1 };
+        let name = format!("edge-{}-{word}", model.name);
+        let [_, content, _] = model.stages(&plan, &mut Random::new(seed, &name))?;
+        let about = format!("the edge map of a random map with the threshold {edge_threshold}");
+        cases.push(Case { name, about, content });
     }
     Ok(())
 }

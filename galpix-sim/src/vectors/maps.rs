@@ -29,7 +29,7 @@ impl Random {
 
     /// A number in `0 .. end`.
     pub fn below(&mut self, end: u32) -> u32 {
-        ((self.next() >> 32) * u64::from(end) >> 32) as u32
+        (((self.next() >> 32) * u64::from(end)) >> 32) as u32
     }
 
     /// A signed number of `bits` bits.
