@@ -133,14 +133,13 @@ pub fn plan(source: &Source, request: &Request, max_error: f64, tighter: f64) ->
     let extremes = Extremes::of(&update, frames);
     let demand = experiment::demand(&update, frames, request);
     let subject = measured::Subject { source, update: &update, request, frames };
-    let full = full(&subject, demand)?;
+    let mut full = full(&subject, demand)?;
     let mut plan = one(&subject, &extremes, demand, max_error)?;
     let mut tight = match one(&subject, &extremes, demand, tighter) {
         Ok(plan) => Some(plan),
         Err(PlanError::Unreachable(_)) => None,
         Err(error) => return Err(error),
     };
-    let mut full = full;
     let mut timed = vec![(full_build(demand)?, &mut full.measured), (plan.build, &mut plan.measured)];
     timed.extend(tight.as_mut().map(|tight| (tight.build, &mut tight.measured)));
     measured::time(&subject, &mut timed)?;

@@ -1,12 +1,11 @@
 //! Lanes and bits in the plane: what leaving a lane out costs at most, and the certificate of what is left.
 
 use galpix_core::budget::{Component, WIDEST_FIELD};
-use galpix_core::record::Scale;
 use galpix_core::rounding::Rounding;
 use serde::Serialize;
 
 use super::extremes::{Extremes, Reach};
-use crate::certificate::{Certificate, Unreachable, smallest};
+use crate::certificate::{Unreachable, smallest};
 
 /// One axis of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -145,28 +144,18 @@ fn axis(
         return Ok(Axis { left_out_px, arithmetic_px: 0.0, component });
     }
     // Without an acceleration a velocity stays as it was stored.
-    let speed = reach.speed;
     let integer = |value: f64| integer_bits(value, if acceleration { 2.0 } else { 0.5 });
     let ranges = Component {
-        velocity_int: integer(speed),
+        velocity_int: integer(reach.speed),
         acceleration_int: if acceleration { integer_bits(reach.acceleration, 0.5) } else { 0 },
         ..STILL
     };
     let (component, certificate) = smallest(ranges, rounding, frames, left).map_err(Some)?;
-    let arithmetic_px = verified(&component, rounding, frames, &certificate);
-    Ok(Axis { left_out_px, arithmetic_px, component })
+    Ok(Axis { left_out_px, arithmetic_px: certificate.total_px, component })
 }
 
 /// Integer bits, sign included, that hold values of this size with `room` pixels a frame to spare.
 fn integer_bits(value: f64, room: f64) -> u32 {
     let needed = (value + room).log2().ceil().max(0.0) as u32 + 1;
     needed.min(WIDEST_FIELD)
-}
-
-/// The certificate made anew from the widths alone: what a plan says is what `galpix budget` would say of it.
-fn verified(component: &Component, rounding: Rounding, frames: u32, found: &Certificate) -> f64 {
-    let scale = Scale::new(*component, component.position_frac);
-    let certificate = Certificate::of(&scale, component.has_acceleration(), rounding, frames);
-    debug_assert_eq!(certificate.total_px, found.total_px);
-    certificate.total_px
 }

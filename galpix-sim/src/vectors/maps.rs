@@ -136,13 +136,11 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
 
 /// Replaces a field by the low bits of a value, bit by bit.
 fn set(words: &mut [u32], field: Field, value: i32) {
-    let upper = u32::from(field.bits - field.spill);
     for bit in 0..u32::from(field.bits) {
         let (word, place) = match bit.checked_sub(field.spill.into()) {
             Some(above) => (field.word, u32::from(field.shift) + above),
             None => (field.word + 1, 32 - u32::from(field.spill) + bit),
         };
-        debug_assert!(place < 32 && upper <= 32);
         words[usize::from(word)] |= (value as u32 >> bit & 1) << place;
     }
 }
