@@ -13,10 +13,13 @@
 //!
 //! **Cost** a cell: 4 additions, 1 shift, 2 comparisons; five cells read.
 
+pub mod single;
+
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::grid::Grid;
 use crate::layout::Layout;
+use crate::sweep::VECTORS;
 
 /// Neighbours that are looked at once.
 const RUN: u32 = 32;
@@ -61,6 +64,9 @@ pub fn on_edge(edges: &[u32], cell: u32) -> bool {
 ///
 /// `threshold` is in units of the depth's last bit. `edges` must have [`words`] words; further cells are not marked.
 pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32, edges: &mut [u32]) -> u32 {
+    if !VECTORS {
+        return single::mark(front, threshold, edges);
+    }
     edges.fill(0);
     let grid = *front.grid();
     let threshold = threshold.min(i32::MAX as u32) as i32;

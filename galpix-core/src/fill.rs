@@ -120,7 +120,7 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
             while x < grid.width() {
                 let run = (grid.width() - x).min(RUN);
                 // Most runs have no hole: look at all of a run before looking at any of its cells.
-                if self.back.empties(row + x, run) == 0 {
+                if !self.back.any_empty(row + x, run) {
                     self.left = Some(row + x + run - 1);
                 } else {
                     for x in x..x + run {

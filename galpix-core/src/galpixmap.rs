@@ -11,7 +11,7 @@ use crate::error::SetupError;
 use crate::galpixel::{Budget, Class, Galpixel};
 use crate::grid::Grid;
 use crate::layout::Layout;
-use crate::record::{MAX_WORDS, Record, Words};
+use crate::record::{Field, MAX_WORDS, Record, Words};
 
 /// A map of galpixels of layout `L` under budget `B`, over borrowed memory.
 #[derive(Debug)]
@@ -170,11 +170,13 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         let (class_word, _) = record.class().words();
         let (depth_word, spill_word) = record.depth().words();
         let (class, depth, depth_bits) = (record.class().extract(), record.depth().extract(), record.depth().bits);
-        plane(class_word)
-            .iter()
-            .zip(plane(depth_word))
-            .zip(plane(spill_word))
-            .map(move |((&top, &word), &spill)| class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill))
+        let joined = record.key_field().map(Field::extract);
+        plane(class_word).iter().zip(plane(depth_word)).zip(plane(spill_word)).map(move |((&top, &word), &spill)| {
+            match joined {
+                Some(key) if B::FIXED => key.unsigned(word, word),
+                _ => class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill),
+            }
+        })
     }
 
     /// Whether some cells are all empty.
@@ -188,13 +190,14 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         class.unsigned(common, common) == Class::Empty as u32
     }
 
-    /// How many of `count` cells from `cell` on are empty.
+    /// Whether any of `count` cells from `cell` on is empty.
     #[inline(always)]
-    pub(crate) fn empties(&self, cell: u32, count: u32) -> u32 {
+    pub(crate) fn any_empty(&self, cell: u32, count: u32) -> bool {
         let (word, _) = self.record().class().words();
-        let class = self.record().class().extract();
         let cells = self.planes[word].get(cell as usize..(cell + count) as usize).unwrap_or_default();
-        cells.iter().map(|&word| (class.unsigned(word, word) == Class::Empty as u32) as u32).sum()
+        // Empty is the class with both its bits set: there the upper one stays when it meets the lower one.
+        let any = cells.iter().fold(0, |any, word| any | word & word << 1);
+        any >> self.record().class().shift >> 1 & 1 != 0
     }
 
     /// The class that a key holds.

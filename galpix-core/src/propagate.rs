@@ -103,7 +103,7 @@ fn step_plane<L: Layout, const CLAMP: bool>(
     words: &mut Words,
 ) -> (i32, i32) {
     let scale = &record.scales[component];
-    let offset = if component == 0 { record.offset_x() } else { record.offset_y() };
+    let offset = record.offset(component);
     let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
     let position = step_position(scale, threshold, offset.signed(words), v, a);
     // The field keeps the low bits, which are those of `position - (cells << position_frac)`.
@@ -146,7 +146,7 @@ fn set_velocity<L: Layout, const CLAMP: bool>(
 
 /// Shading inertia: the luminosity moves by its rate, and whole steps go into the colour's channels, clamped to them.
 #[inline(always)]
-fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
+pub(crate) fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
     use crate::colour::Colour;
     if !record.luminosity_rate().present() {
         return;
@@ -155,6 +155,59 @@ fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
     record.luminosity().set(words, level as u32);
     let colour = record.colour().unsigned(words);
     record.colour().set(words, L::Colour::brightened(colour, level >> record.luminosity_frac));
+}
+
+/// A step in x (0) or y (1) of a galpixel that is expected to move by `moved` cells: whether it does, and its velocity stays
+/// in its field. If not, the words hold rubbish.
+#[inline(always)]
+pub(crate) fn plane_along<L: Layout, const COMPONENT: usize>(
+    record: &Record,
+    threshold: i32,
+    moved: i32,
+    words: &mut Words,
+) -> bool {
+    let scale = &record.scales[COMPONENT];
+    let offset = record.offset(COMPONENT);
+    let Some(step) = step_within::<L>(record, COMPONENT, words) else { return false };
+    let position = offset.signed(words) + (((step + threshold) >> scale.down) << scale.up);
+    offset.set(words, position as u32);
+    // Whether `snap` gives what is expected, in one comparison.
+    let half = (1 << scale.position_frac) >> 1;
+    let within = position.wrapping_sub((moved << scale.position_frac) - half);
+    (within as u32) < 1 << scale.position_frac
+}
+
+/// A step in depth: whether depth and velocity stay in their fields. If not, the words hold rubbish.
+#[inline(always)]
+pub(crate) fn depth_within<L: Layout>(record: &Record, threshold: i32, words: &mut Words) -> bool {
+    let (depth, scale) = (record.depth(), &record.scales[2]);
+    let Some(step) = step_within::<L>(record, 2, words) else { return false };
+    let position = depth.unsigned(words) as i32 + (((step + threshold) >> scale.down) << scale.up);
+    depth.set(words, position as u32);
+    position as u32 >> depth.bits == 0
+}
+
+/// `2v + a` of a component whose velocity stays in its field in the step, which it takes; else nothing.
+#[inline(always)]
+fn step_within<L: Layout>(record: &Record, component: usize, words: &mut Words) -> Option<i32> {
+    let (field, scale) = (record.velocity(component), &record.scales[component]);
+    let v = field.signed(words);
+    if !L::LANES.acceleration {
+        return Some(v << 1);
+    }
+    let a = record.acceleration(component).signed(words);
+    if let Some(shift) = field.at_top() {
+        // At the top of its word the processor's own overflow flag tells whether the sum strays.
+        let (word, _) = field.words();
+        let (sum, strays) = (words[word] as i32).overflowing_add(a << (scale.acceleration_up + shift));
+        words[word] = sum as u32;
+        // `2v + a` is the old velocity and the new one.
+        return if strays { None } else { Some(v + (sum >> shift)) };
+    }
+    let velocity = step_velocity(scale, v, a);
+    field.set(words, velocity as u32);
+    let unused = 32 - scale.velocity_bits;
+    if velocity << unused >> unused == velocity { Some(v + velocity) } else { None }
 }
 
 /// A galpixel on its way: the only thing that crosses from propagation to resolution.

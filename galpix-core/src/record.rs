@@ -81,10 +81,23 @@ impl Field {
         }
     }
 
+    /// The words that hold the field, a bit for each.
+    #[inline(always)]
+    pub(crate) fn word_set(self) -> u32 {
+        let (upper, lower) = self.words();
+        if self.bits == 0 { 0 } else { 1 << upper | 1 << lower }
+    }
+
     /// The bits of the upper part in its word, the lowest of them, and how many bits spill.
     #[inline(always)]
     pub(crate) const fn upper_mask(self) -> (u32, u32, u32) {
         (low_mask(self.upper_bits()) << self.shift, self.shift as u32, self.spill as u32)
+    }
+
+    /// The field's lowest bit in its word, if its highest is the word's highest.
+    #[inline(always)]
+    pub(crate) const fn at_top(self) -> Option<u32> {
+        if self.spill == 0 && self.shift as u32 + self.bits as u32 == 32 { Some(self.shift as u32) } else { None }
     }
 
     /// The field as an unsigned number.
@@ -337,6 +350,23 @@ impl Record {
         luminosity_rate = LUMINOSITY_RATE;
         /// Fraction of the luminosity.
         luminosity = LUMINOSITY;
+    }
+
+    /// Fraction of the position in x (0) or y (1), from the cell's centre.
+    #[inline(always)]
+    pub(crate) const fn offset(&self, component: usize) -> Field {
+        self.fields[OFFSET[component]]
+    }
+
+    /// Class and depth as one number, as a field, where they stand side by side.
+    #[inline(always)]
+    pub(crate) const fn key_field(&self) -> Option<Field> {
+        let (class, depth) = (self.class(), self.depth());
+        if class.word == depth.word && class.shift == depth.shift + depth.bits && depth.spill == 0 && depth.bits != 0 {
+            Some(Field { bits: class.bits + depth.bits, ..depth })
+        } else {
+            None
+        }
     }
 
     /// The velocity in x (0), y (1) or depth (2).

@@ -11,6 +11,7 @@
 //! Rows of the new map are cleared just before they are first needed, while the old map's neighbourhood is in the cache.
 
 mod planes;
+pub mod single;
 
 use core::ops::Range;
 
@@ -23,6 +24,10 @@ use crate::resolve::{self, NOBODY};
 use crate::rounding::Rounding;
 use crate::tally::Tally;
 use planes::Planes;
+
+/// Whether loops over neighbours become vector code here. Decides how the passes are arranged, and no bit of a result.
+pub(crate) const VECTORS: bool =
+    cfg!(any(target_arch = "x86_64", target_arch = "x86", target_arch = "aarch64", target_arch = "wasm32"));
 
 /// Cells that are moved at once: enough for vector code, few enough to stay in the first cache.
 const CHUNK: usize = 64;
@@ -77,6 +82,9 @@ pub fn sweep<L: Layout, B: Budget<L>>(
     rounding: Rounding,
     frame: u32,
 ) -> Tally {
+    if !VECTORS {
+        return single::sweep(front, back, winners, rounding, frame);
+    }
     let grid = *front.grid();
     if grid != *back.grid() {
         return Tally::default();
