@@ -18,7 +18,7 @@ use crate::scene::{Body, Number, Scene};
 /// Frames from the begin of one update to the next. A power of two.
 pub const EVERY: u32 = 16;
 /// Frames that an update takes. A power of two.
-pub const TAKES: u32 = 8;
+pub const TAKES: u32 = 16;
 
 /// The most bodies of a scene.
 const MOST: usize = 8;

@@ -12,6 +12,8 @@ use crate::rejected::{CAUSES, Rejected, Rejections};
 
 /// The most bytes of a payload.
 pub const MAX_PAYLOAD: usize = 240;
+/// In [`Frame::Scene`]: an empty map, in which only what the host sends is seen.
+pub const NO_SCENE: u8 = 0xff;
 /// Bytes of a checksum.
 pub(crate) const CHECKSUM: usize = 4;
 /// The most bytes of a frame on the line, its 0 included. Below 254 bytes COBS adds a single one.
@@ -28,11 +30,12 @@ mod kind {
     pub const SCENE: u8 = 0x03;
     pub const LOCKSTEP: u8 = 0x04;
     pub const GO: u8 = 0x05;
+    pub const OVERLAY: u8 = 0x06;
     pub const STATUS: u8 = 0x81;
     pub const SHOWN: u8 = 0x82;
 }
 
-/// One frame. The first five kinds go from the host to the device, the last two back.
+/// One frame. The first six kinds go from the host to the device, the last two back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Frame<'a> {
@@ -40,7 +43,7 @@ pub enum Frame<'a> {
     Hello,
     /// Neighbours along a row of the map.
     Galpixels(Galpixels<'a>),
-    /// Show a built-in scene.
+    /// Show a built-in scene, or [`NO_SCENE`].
     Scene {
         /// Its number, from 0 on, in the device's order.
         number: u8,
@@ -52,6 +55,11 @@ pub enum Frame<'a> {
     },
     /// Make the next frame and show it. Without lockstep it means nothing.
     Go,
+    /// Whether the device draws a line of text over the picture.
+    Overlay {
+        /// Whether it does.
+        on: bool,
+    },
     /// How the device is.
     Status(Status),
     /// The device shows a frame.
@@ -206,6 +214,10 @@ impl<'a> Frame<'a> {
                 to.u8(u8::from(*on));
             }
             Self::Go => to.u8(kind::GO),
+            Self::Overlay { on } => {
+                to.u8(kind::OVERLAY);
+                to.u8(u8::from(*on));
+            }
             Self::Status(status) => {
                 to.u8(kind::STATUS);
                 to.u32(status.frame);
@@ -246,6 +258,7 @@ impl<'a> Frame<'a> {
             kind::SCENE => Self::Scene { number: from.u8()? },
             kind::LOCKSTEP => Self::Lockstep { on: from.flag()? },
             kind::GO => Self::Go,
+            kind::OVERLAY => Self::Overlay { on: from.flag()? },
             kind::STATUS => Self::Status(Status {
                 frame: from.u32()?,
                 fingerprint: from.u32()?,

@@ -1,10 +1,10 @@
 //! The displays that both ends know: their sizes, and how their galpixels are stored.
 
 use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::colour::{Colour, Gray4};
+use galpix_core::colour::{Colour, Gray4, Rgb565};
 use galpix_core::error::BudgetError;
 use galpix_core::galpixel::{Fixed, Profile, Static};
-use galpix_core::layout::{Flat565, Lanes, Layout};
+use galpix_core::layout::{Lanes, Layout};
 use galpix_core::record::{Field, Record, Scale};
 
 use crate::CRC;
@@ -178,18 +178,19 @@ const fn must(component: Result<Component, BudgetError>) -> Component {
 #[derive(Clone, Copy, Debug)]
 pub enum Oled {}
 
-/// What the galpixels of [`Oled`] carry: x and y with velocity only, 4-bit gray, 5-bit z that does not move.
+/// What the galpixels of [`Oled`] carry: x and y with velocity only, 4-bit gray, 4-bit z that does not move, and one bit
+/// that tells an update from the one before.
 #[derive(Clone, Copy, Debug)]
 pub enum OledLayout {}
 
 impl Layout for OledLayout {
     type Colour = Gray4;
-    const LANES: Lanes = Lanes { depth_bits: 5, ..Lanes::VELOCITY_XY };
+    const LANES: Lanes = Lanes { depth_bits: 4, tag_bits: 1, ..Lanes::VELOCITY_XY };
 }
 
 impl Profile for Oled {
-    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That and the
-    /// fifth bit of depth fill one word to its last bit.
+    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That fills
+    /// one word to its last bit.
     const BITS: Bits = {
         let x = Demand { extent: 128, recog: 32, prop: 16 };
         let y = Demand { extent: 64, ..x };
@@ -205,13 +206,23 @@ impl Panel for Oled {
     type Layout = OledLayout;
 }
 
+/// What the galpixels of [`Lcd`] carry: x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two
+/// bits that tell an update from those before.
+#[derive(Clone, Copy, Debug)]
+pub enum LcdLayout {}
+
+impl Layout for LcdLayout {
+    type Colour = Rgb565;
+    const LANES: Lanes = Lanes { depth_bits: 14, tag_bits: 2, depth_motion: false, ..Lanes::FULL };
+}
+
 /// A colour display of 320 x 240 pixels.
 #[derive(Clone, Copy, Debug)]
 pub enum Lcd {}
 
 impl Profile for Lcd {
     /// Recognition in 16 frames, an update every 16: 96 bits, three words to their last bit. Recognition in 8 would take
-    /// 102 bits, and a fourth word for the last six of them.
+    /// six bits more, and a fourth word for them.
     const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 320, recog: 16, prop: 16 }));
 }
 
@@ -219,7 +230,7 @@ impl Panel for Lcd {
     const NAME: &'static str = "lcd";
     const WIDTH: u16 = 320;
     const HEIGHT: u16 = 240;
-    type Layout = Flat565;
+    type Layout = LcdLayout;
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);
