@@ -126,6 +126,14 @@ pub struct Status {
     pub rejected: Rejections,
     /// Frames that were not ready at their vsync.
     pub late: u32,
+    /// Ticks that the longest frame took since the last status, and ticks from one vsync to the next.
+    pub busy: u32,
+    /// See [`Self::busy`].
+    pub ticks: u32,
+    /// Bytes of the stack that were ever used, and bytes that it has; 0 where the board does not know.
+    pub stack_used: u32,
+    /// See [`Self::stack_used`].
+    pub stack: u32,
 }
 
 impl<'a> Galpixels<'a> {
@@ -231,7 +239,9 @@ impl<'a> Frame<'a> {
                 for count in status.rejected.counts() {
                     to.u32(count);
                 }
-                to.u32(status.late);
+                for number in [status.late, status.busy, status.ticks, status.stack_used, status.stack] {
+                    to.u32(number);
+                }
             }
             Self::Shown { frame, hash } => {
                 to.u8(kind::SHOWN);
@@ -276,6 +286,10 @@ impl<'a> Frame<'a> {
                     Rejections::from_counts(counts)
                 },
                 late: from.u32()?,
+                busy: from.u32()?,
+                ticks: from.u32()?,
+                stack_used: from.u32()?,
+                stack: from.u32()?,
             }),
             kind::SHOWN => Self::Shown { frame: from.u32()?, hash: from.u32()? },
             _ => return Err(Rejected::UnknownKind),

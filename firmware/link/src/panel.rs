@@ -3,6 +3,7 @@
 use galpix_core::budget::{Bits, Component, Demand};
 use galpix_core::colour::{Colour, Gray4, Rgb565};
 use galpix_core::error::BudgetError;
+use galpix_core::frame::Settings;
 use galpix_core::galpixel::{Fixed, Profile, Static};
 use galpix_core::layout::{Lanes, Layout};
 use galpix_core::record::{Field, Record, Scale};
@@ -28,6 +29,8 @@ pub trait Panel: Profile + Sized {
     const RECORD: Record = <Static<Self> as Fixed<Self::Layout>>::RECORD;
     /// Cells of its map, which has no wings.
     const CELLS: usize = Self::WIDTH as usize * Self::HEIGHT as usize;
+    /// With what its frames are made. With few depths the surface next to another may be apart by a single step.
+    const SETTINGS: Settings = Settings::for_depth(Self::RECORD.depth().bits as u32);
     /// Words of memory for one map.
     const MAP_WORDS: usize = Self::CELLS * Self::RECORD.words();
     /// The display as a value.

@@ -40,6 +40,8 @@ pub fn start() {
 fn UART0() {
     critical_section::with(|section| {
         let mut queued = QUEUED.borrow_ref_mut(section);
+        // First of all: what comes while the bytes are taken out asks again.
+        UART0_ICR.write(RECEIVED);
         while UART0_FR.read() & RECEIVE_EMPTY == 0 {
             if queued.is_full() {
                 UART0_IM.write(0);
@@ -47,7 +49,6 @@ fn UART0() {
             }
             let _ = queued.push_back(UART0_DR.read() as u8);
         }
-        UART0_ICR.write(RECEIVED);
     });
 }
 
