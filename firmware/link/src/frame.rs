@@ -77,8 +77,8 @@ pub struct Galpixels<'a> {
     pub y: u16,
     /// Column of the first one.
     pub x: u16,
-    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest first.
-    /// 4 to [`MAX_WORD_BYTES`] bytes.
+    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest
+    /// first. 4 to [`MAX_WORD_BYTES`] bytes.
     pub words: &'a [u8],
 }
 
@@ -148,8 +148,8 @@ impl<'a> Galpixels<'a> {
         }))
     }
 
-    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a huge
-    /// age.
+    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a
+    /// huge age.
     #[must_use]
     pub const fn age(&self, now: u32) -> u32 {
         now.wrapping_sub(self.stamp)
@@ -159,8 +159,8 @@ impl<'a> Galpixels<'a> {
 impl<'a> Frame<'a> {
     /// Writes the frame as it goes over the line, its 0 included, and returns the bytes written.
     ///
-    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many ([`Rejected::TooLong`]);
-    /// what the receiver would say too.
+    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many
+    /// ([`Rejected::TooLong`]); what the receiver would say too.
     pub fn encode<'b>(&self, buffer: &'b mut [u8; MAX_ENCODED]) -> Result<&'b [u8], Rejected> {
         let mut payload = [0; MAX_PAYLOAD + CHECKSUM];
         let mut writer = Writer::new(&mut payload);

@@ -10,7 +10,8 @@ use galpix_core::record::{Field, Record, Scale};
 use crate::CRC;
 use crate::frame::MAX_WORD_BYTES;
 
-/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's galpixels.
+/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's
+/// galpixels.
 pub const VERSION: u8 = 1;
 
 /// A display, as a type. `Static<Self>` is the budget of its maps.
@@ -120,10 +121,10 @@ impl Hashed {
     }
 }
 
-/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and height
-/// (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the seven
-/// numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of the
-/// colour its lowest bit and its bits.
+/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and
+/// height (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the
+/// seven numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of
+/// the colour its lowest bit and its bits.
 ///
 /// For constants: it is computed while compiling.
 #[must_use]
@@ -188,8 +189,8 @@ impl Layout for OledLayout {
 }
 
 impl Profile for Oled {
-    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That and the
-    /// fifth bit of depth fill one word to its last bit.
+    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That and
+    /// the fifth bit of depth fill one word to its last bit.
     const BITS: Bits = {
         let x = Demand { extent: 128, recog: 32, prop: 16 };
         let y = Demand { extent: 64, ..x };
@@ -210,8 +211,8 @@ impl Panel for Oled {
 pub enum Lcd {}
 
 impl Profile for Lcd {
-    /// Recognition in 16 frames, an update every 16: 96 bits, three words to their last bit. Recognition in 8 would take
-    /// 102 bits, and a fourth word for the last six of them.
+    /// Recognition in 16 frames, an update every 16: 96 bits, three words to their last bit. Recognition in 8 would
+    /// take 102 bits, and a fourth word for the last six of them.
     const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 320, recog: 16, prop: 16 }));
 }
 
