@@ -11,6 +11,7 @@ pub mod engine;
 pub mod experiment;
 pub mod figure;
 pub mod film;
+pub mod fit;
 pub mod metric;
 pub mod picture;
 pub mod plan;
