@@ -18,6 +18,7 @@ pub mod plan;
 pub mod progress;
 pub mod report;
 pub mod scene;
+pub mod send;
 pub mod stability;
 pub mod tradeoff;
 pub mod update;

@@ -36,8 +36,8 @@ pub fn encoded(frame: &Frame<'_>) -> Vec<u8> {
     frame.encode(&mut [0; MAX_ENCODED]).unwrap().to_vec()
 }
 
-/// A frame that was accepted, encoded anew, or why it was not. Payloads and their encodings belong to each other one by one, so that
-/// frames are the same if their bytes are.
+/// A frame that was accepted, encoded anew, or why it was not. Payloads and their encodings belong to each other one by
+/// one, so that frames are the same if their bytes are.
 pub type Received = Result<Vec<u8>, Rejected>;
 
 /// What a receiver makes of these bytes.
