@@ -138,13 +138,15 @@ impl<'a> Galpixels<'a> {
         if self.y >= panel.height || usize::from(self.x) + count > usize::from(panel.width) {
             return Err(Rejected::Outside);
         }
-        let y = self.y;
-        Ok((self.x..panel.width).zip(self.words.chunks_exact(bytes)).map(move |(x, galpixel)| {
+        let Self { x, y, words: all, .. } = *self;
+        // By counting, not by chunks: these would divide once more.
+        Ok((0..count as u16).map(move |index| {
+            let galpixel = all.get(usize::from(index) * bytes..).unwrap_or_default();
             let mut words = [0; MAX_WORDS];
-            for (word, bytes) in words.iter_mut().zip(galpixel.as_chunks().0) {
+            for (word, bytes) in words.iter_mut().take(bytes / 4).zip(galpixel.as_chunks().0) {
                 *word = u32::from_le_bytes(*bytes);
             }
-            Stored { x, y, words }
+            Stored { x: x + index, y, words }
         }))
     }
 
