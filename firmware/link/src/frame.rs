@@ -85,8 +85,8 @@ pub struct Galpixels<'a> {
     pub y: u16,
     /// Column of the first one.
     pub x: u16,
-    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest first.
-    /// 4 to [`MAX_WORD_BYTES`] bytes.
+    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest
+    /// first. 4 to [`MAX_WORD_BYTES`] bytes.
     pub words: &'a [u8],
 }
 
@@ -154,18 +154,20 @@ impl<'a> Galpixels<'a> {
         if self.y >= panel.height || usize::from(self.x) + count > usize::from(panel.width) {
             return Err(Rejected::Outside);
         }
-        let y = self.y;
-        Ok((self.x..panel.width).zip(self.words.chunks_exact(bytes)).map(move |(x, galpixel)| {
+        let Self { x, y, words: all, .. } = *self;
+        // By counting, not by chunks: these would divide once more.
+        Ok((0..count as u16).map(move |index| {
+            let galpixel = all.get(usize::from(index) * bytes..).unwrap_or_default();
             let mut words = [0; MAX_WORDS];
-            for (word, bytes) in words.iter_mut().zip(galpixel.as_chunks().0) {
+            for (word, bytes) in words.iter_mut().take(bytes / 4).zip(galpixel.as_chunks().0) {
                 *word = u32::from_le_bytes(*bytes);
             }
-            Stored { x, y, words }
+            Stored { x: x + index, y, words }
         }))
     }
 
-    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a huge
-    /// age.
+    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a
+    /// huge age.
     #[must_use]
     pub const fn age(&self, now: u32) -> u32 {
         now.wrapping_sub(self.stamp)
@@ -175,8 +177,8 @@ impl<'a> Galpixels<'a> {
 impl<'a> Frame<'a> {
     /// Writes the frame as it goes over the line, its 0 included, and returns the bytes written.
     ///
-    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many ([`Rejected::TooLong`]);
-    /// what the receiver would say too.
+    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many
+    /// ([`Rejected::TooLong`]); what the receiver would say too.
     pub fn encode<'b>(&self, buffer: &'b mut [u8; MAX_ENCODED]) -> Result<&'b [u8], Rejected> {
         let mut payload = [0; MAX_PAYLOAD + CHECKSUM];
         let mut writer = Writer::new(&mut payload);

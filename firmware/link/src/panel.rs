@@ -11,7 +11,8 @@ use galpix_core::record::{Field, Record, Scale};
 use crate::CRC;
 use crate::frame::MAX_WORD_BYTES;
 
-/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's galpixels.
+/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's
+/// galpixels.
 pub const VERSION: u8 = 1;
 
 /// A display, as a type. `Static<Self>` is the budget of its maps.
@@ -123,10 +124,10 @@ impl Hashed {
     }
 }
 
-/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and height
-/// (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the seven
-/// numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of the
-/// colour its lowest bit and its bits.
+/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and
+/// height (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the
+/// seven numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of
+/// the colour its lowest bit and its bits.
 ///
 /// For constants: it is computed while compiling.
 #[must_use]
