@@ -83,8 +83,7 @@ where
         };
         let line = Line { decoder: Decoder::new(), status, go: false, until_log: SECOND };
         let (tally, lifetime) = (Tally::default(), core::marker::PhantomData);
-        let mut session =
-            Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, lifetime };
+        let mut session = Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, lifetime };
         session.choose(0);
         session
     }

@@ -82,11 +82,9 @@ impl Board {
     pub fn shown(self, colour: u32) -> [u8; 3] {
         match self {
             Self::Lm3s6965evb => [(colour * 17) as u8; 3],
-            Self::VexpressA9 => [
-                (colour >> 11 << 3) as u8,
-                ((colour >> 5 & 63) << 2) as u8,
-                ((colour & 31) << 3) as u8,
-            ],
+            Self::VexpressA9 => {
+                [(colour >> 11 << 3) as u8, ((colour >> 5 & 63) << 2) as u8, ((colour & 31) << 3) as u8]
+            }
         }
     }
 }

@@ -85,7 +85,10 @@ impl Emulator {
                     }
                     Err(_) if begin.elapsed() < PATIENCE => {
                         if let Some(Ok(Some(status))) = child.as_mut().map(Child::try_wait) {
-                            return Err(Failure::new(format!("{}: the emulator ended at once, {status}", board.name())));
+                            return Err(Failure::new(format!(
+                                "{}: the emulator ended at once, {status}",
+                                board.name()
+                            )));
                         }
                         std::thread::sleep(Duration::from_millis(5));
                     }

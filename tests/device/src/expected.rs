@@ -46,20 +46,20 @@ pub enum Shows<'s> {
 }
 
 /// The `frames` frames after frame `first`, in which the board was told what to show.
-pub fn frames(board: Board, shows: Shows<'_>, first: u32, frames: u32, overlay: bool) -> Result<Vec<Expected>, Failure> {
+pub fn frames(
+    board: Board,
+    shows: Shows<'_>,
+    first: u32,
+    frames: u32,
+    overlay: bool,
+) -> Result<Vec<Expected>, Failure> {
     match board {
         Board::Lm3s6965evb => of::<galpix_link::panel::Oled>(board, shows, first, frames, overlay),
         Board::VexpressA9 => of::<galpix_link::panel::Lcd>(board, shows, first, frames, overlay),
     }
 }
 
-fn of<P: Panel>(
-    board: Board,
-    shows: Shows<'_>,
-    first: u32,
-    count: u32,
-    overlay: bool,
-) -> Result<Vec<Expected>, Failure>
+fn of<P: Panel>(board: Board, shows: Shows<'_>, first: u32, count: u32, overlay: bool) -> Result<Vec<Expected>, Failure>
 where
     P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
 {

@@ -24,7 +24,9 @@ const fn meant(board: Board) -> (u32, f64) {
 
 /// Measures both boards.
 pub fn run(firmware: &Path, check: bool) -> Result<(), Failure> {
-    println!("| board | million instructions a second | scene | frames a second | missed vsyncs | needed at 60 | stack |");
+    println!(
+        "| board | million instructions a second | scene | frames a second | missed vsyncs | needed at 60 | stack |"
+    );
     println!("| --- | --- | --- | --- | --- | --- | --- |");
     for board in Board::ALL {
         let (clean, most) = meant(board);

@@ -49,12 +49,7 @@ pub fn lockstep(emulator: &mut Emulator) -> Result<(), Failure> {
 }
 
 /// Lets the board make its next frame, and compares it.
-fn compare(
-    emulator: &mut Emulator,
-    board: Board,
-    scene: &str,
-    expected: &expected::Expected,
-) -> Result<(), Failure> {
+fn compare(emulator: &mut Emulator, board: Board, scene: &str, expected: &expected::Expected) -> Result<(), Failure> {
     emulator.line.send(&Frame::Go)?;
     let (frame, hash) = emulator.line.shown()?;
     let screen = emulator.screen()?;

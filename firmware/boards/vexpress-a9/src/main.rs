@@ -92,9 +92,5 @@ fn controller(
     starts: &'static mut [u32],
 ) -> Result<Controller<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
     let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
-    Controller::new(
-        Galpixmap::new(grid, Stored::new(), front)?,
-        Galpixmap::new(grid, Stored::new(), back)?,
-        scratch,
-    )
+    Controller::new(Galpixmap::new(grid, Stored::new(), front)?, Galpixmap::new(grid, Stored::new(), back)?, scratch)
 }

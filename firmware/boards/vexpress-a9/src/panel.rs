@@ -9,9 +9,7 @@ use embedded_graphics::geometry::{OriginDimensions, Point, Size};
 use embedded_graphics::pixelcolor::{IntoStorage, Rgb565};
 use embedded_graphics::prelude::PointsIter;
 use embedded_graphics::primitives::Rectangle;
-use galpix_registers::vexpress::{
-    LCD_CONTROL, LCD_IMSC, LCD_TIMING0, LCD_TIMING1, LCD_TIMING2, LCD_UPBASE,
-};
+use galpix_registers::vexpress::{LCD_CONTROL, LCD_IMSC, LCD_TIMING0, LCD_TIMING1, LCD_TIMING2, LCD_UPBASE};
 
 /// Columns.
 pub const WIDTH: u32 = 320;
