@@ -32,6 +32,9 @@ pub trait Panel: Profile + Sized {
     const CELLS: usize = Self::WIDTH as usize * Self::HEIGHT as usize;
     /// With what its frames are made. With few depths the surface next to another may be apart by a single step.
     const SETTINGS: Settings = Settings::for_depth(Self::RECORD.depth().bits as u32);
+    /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet hole: all
+    /// continue what is beside them.
+    const TELLS_SURFACES: bool;
     /// Words of memory for one map.
     const MAP_WORDS: usize = Self::CELLS * Self::RECORD.words();
     /// The display as a value.
@@ -208,6 +211,8 @@ impl Panel for Oled {
     const WIDTH: u16 = 128;
     const HEIGHT: u16 = 64;
     type Layout = OledLayout;
+    /// No: that would take 4.5 KiB, and a quarter of the work of a frame.
+    const TELLS_SURFACES: bool = false;
 }
 
 /// What the galpixels of [`Lcd`] carry: x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two
@@ -235,6 +240,7 @@ impl Panel for Lcd {
     const WIDTH: u16 = 320;
     const HEIGHT: u16 = 240;
     type Layout = LcdLayout;
+    const TELLS_SURFACES: bool = true;
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);

@@ -70,7 +70,8 @@ where
         .map_err(|error| failed(&error))?;
     let words = Galpixmap::<P::Layout, _>::words(&grid, budget);
     let (mut front, mut back) = (vec![0; words], vec![0; words]);
-    let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+    let told = |words: usize| vec![0; if P::TELLS_SURFACES { words } else { 0 }];
+    let (mut winners, mut edges) = (told(grid.cells() as usize), told(edge::words(&grid)));
     let mut controller = Controller::new(
         Galpixmap::<P::Layout, _>::new(grid, budget, &mut front).map_err(|error| failed(&error))?,
         Galpixmap::new(grid, budget, &mut back).map_err(|error| failed(&error))?,

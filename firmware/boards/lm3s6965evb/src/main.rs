@@ -91,7 +91,7 @@ fn main() -> ! {
     defmt::info!("memory: {=usize} bytes are left for the stack", stack);
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
-    let Ok(rolling) = rolling(lent.map, lent.window, lent.scratch, lent.starts, lent.turns) else { end::fail() };
+    let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
     Session::new(board, rolling, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
@@ -99,11 +99,14 @@ fn main() -> ! {
 fn rolling(
     map: &'static mut [u32],
     window: &'static mut [u32],
-    scratch: Scratch<'static>,
     starts: &'static mut [u32],
     turns: &'static mut [u32],
 ) -> Result<Rolling<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
     let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
     let rolls = Grid::window(&grid, memory::WINDOW_ROWS as u32, turns)?;
-    Rolling::new(Galpixmap::new(grid, Stored::new(), map)?, Galpixmap::new(rolls, Stored::new(), window)?, scratch)
+    Rolling::new(
+        Galpixmap::new(grid, Stored::new(), map)?,
+        Galpixmap::new(rolls, Stored::new(), window)?,
+        Scratch::default(),
+    )
 }
