@@ -1,0 +1,51 @@
+//! What is checked of the firmware on the host. `firmware/test.sh` builds and runs what is read here.
+//!
+//! ```text
+//! galpix-check cost [--write] [RUN.csv...]         counted instructions beside firmware/cost.csv; without files, from standard input
+//! galpix-check machine-code ELF [NAME...]          what the functions of these names reach; without names, those that begin with proof_
+//! ```
+//!
+//! Ends with 1 where something is not as it must be, with 2 where it could not be looked at.
+
+mod cost;
+mod machine_code;
+
+use std::process::ExitCode;
+
+/// What a command found, as lines to print.
+#[derive(Debug, Default)]
+struct Findings {
+    /// For standard output.
+    report: String,
+    /// What is not as it must be.
+    faults: Vec<String>,
+}
+
+const USAGE: &str = "usage: galpix-check cost [--write] [RUN.csv...]\n       galpix-check machine-code ELF [NAME...]";
+
+fn run(arguments: &[&str]) -> Result<Findings, String> {
+    match arguments {
+        ["cost", "--write", files @ ..] => cost::run(files, true),
+        ["cost", files @ ..] => cost::run(files, false),
+        ["machine-code", file, names @ ..] => machine_code::run(file, names),
+        _ => Err(USAGE.to_owned()),
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments: Vec<_> = std::env::args().skip(1).collect();
+    let arguments: Vec<_> = arguments.iter().map(String::as_str).collect();
+    match run(&arguments) {
+        Ok(Findings { report, faults }) => {
+            print!("{report}");
+            for fault in &faults {
+                eprintln!("{fault}");
+            }
+            if faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}
