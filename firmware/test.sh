@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks the firmware: builds it for each processor, proves by linking that it cannot panic, reads its machine code, runs it in
-# an emulator. Installs what is missing, goes on after a step that fails, and ends with one line a step. Ends with 1 if a step
-# failed, and with 3 if none did but some could not run.
+# Checks the firmware: builds it for each processor, proves by linking that it cannot panic, reads its machine code,
+# runs it in an emulator. Installs what is missing, goes on after a step that fails, and ends with one line a step. Ends
+# with 1 if a step failed, and with 3 if none did but some could not run.
 #
 #   firmware/test.sh               all steps
 #   firmware/test.sh proof cost    only these
@@ -12,6 +12,7 @@ set -euo pipefail
 cd "$(dirname "$0")"
 export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
 [ -z "${CI:-}" ] || export CARGO_INCREMENTAL=0
+export CARGO_TARGET_DIR="$PWD/target"
 
 # The same emulated machine runs what is compiled for all three.
 COST_TARGETS=(thumbv6m-none-eabi thumbv7m-none-eabi thumbv7em-none-eabi)
@@ -32,7 +33,8 @@ limited() { if command -v timeout >/dev/null; then timeout "$@"; else shift; "$@
 
 # --- what is missing -------------------------------------------------------------------------------------------------
 
-# How a target is built: "installed" with its own core library, "source" with one built from the compiler's sources, "absent".
+# How a target is built: "installed" with its own core library, "source" with one built from the compiler's sources,
+# "absent".
 way() {
     # The folder's name is printed whether or not there is anything in it.
     if compgen -G "$(rustc --print target-libdir --target "$1")/libcore-*.rlib" >/dev/null; then
@@ -50,8 +52,8 @@ absent() {
     for target; do [ "$(way "$target")" != absent ] || printf '%s ' "$target"; done
 }
 
-# Cargo for a package and some targets: `on COMMAND PACKAGE "OPTIONS" TARGET...`. All that are installed in one call, so that
-# they are compiled side by side.
+# Cargo for a package and some targets: `on COMMAND PACKAGE "OPTIONS" TARGET...`. All that are installed in one call, so
+# that they are compiled side by side.
 on() {
     local command="$1" package="$2" options="$3" target together=()
     shift 3
@@ -59,10 +61,10 @@ on() {
         if [ "$(way "$target")" = installed ]; then
             together+=(--target "$target")
         else
-            # The compiler takes the sources for its own only if it is told that it is one that may use unstable features.
-            # shellcheck disable=SC2086
+            # The compiler takes the sources for its own only if it is told that it is one that may use unstable
+            # features. shellcheck disable=SC2086
             RUSTC_BOOTSTRAP=1 CARGO_UNSTABLE_BUILD_STD=core,compiler_builtins \
-                cargo "$command" --locked --quiet -p "$package" --target "$target" $options
+                cargo "$command" --locked --quiet -p "$package" --target "$target" $options || return
         fi
     done
     # shellcheck disable=SC2086
@@ -71,7 +73,7 @@ on() {
 
 install_missing() {
     local target
-    command -v cargo >/dev/null || { echo "cargo is missing: install Rust with rustup, then call this again" >&2; exit 1; }
+    command -v cargo >/dev/null || { echo "cargo is missing: install Rust with rustup, then call this" >&2; exit 1; }
     for target in "${TARGETS[@]}"; do
         [ "$(way "$target")" != installed ] || continue
         if [ -n "${OFFLINE:-}" ] || ! command -v rustup >/dev/null; then
@@ -136,7 +138,8 @@ step_proof() {
     on build galpix-proof --release "${PROOF_TARGETS[@]}"
     for target in "${PROOF_TARGETS[@]}"; do
         # In a folder of its own: the program that is read later stays.
-        if answer="$(CARGO_TARGET_DIR=target/bad on build galpix-proof "--release --features bad" "$target" 2>&1)"; then
+        if answer="$(CARGO_TARGET_DIR="$PWD/target/bad" \
+            on build galpix-proof "--release --features bad" "$target" 2>&1)"; then
             echo "$target: a program that can panic was linked" >&2
             return 1
         fi
@@ -164,7 +167,7 @@ step_cost() {
     local missing target runs=() files=() run
     missing="$(absent "${COST_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    have_qemu || { skip "qemu-system-arm is not installed: install it, for example with apt-get install qemu-system-arm"; return; }
+    have_qemu || { skip "not installed: qemu-system-arm, to be had with: apt-get install qemu-system-arm"; return; }
     cargo test --locked --quiet -p galpix-check
     on build galpix-cost --release "${COST_TARGETS[@]}"
     mkdir -p target/cost

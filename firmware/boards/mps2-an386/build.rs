@@ -1,5 +1,5 @@
-//! Link arguments, emitted here and not in a configuration file, which holds only where cargo is started beside it; and what
-//! this was compiled by and for, for the report.
+//! Link arguments, emitted here and not in a configuration file, which holds only where cargo is started beside it; and
+//! what this was compiled by and for, for the report.
 
 use std::env;
 use std::process::Command;

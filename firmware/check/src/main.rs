@@ -1,9 +1,11 @@
 //! What is checked of the firmware on the host. `firmware/test.sh` builds and runs what is read here.
 //!
 //! ```text
-//! galpix-check cost [--write] [RUN.csv...]         counted instructions beside firmware/cost.csv; without files, from standard input
-//! galpix-check machine-code ELF [NAME...]          what the functions of these names reach; without names, those that begin with proof_
+//! galpix-check cost [--write] [RUN.csv...]    counted instructions beside firmware/cost.csv
+//! galpix-check machine-code ELF [NAME...]     what the functions of these names reach
 //! ```
+//!
+//! Without files `cost` reads standard input; without names `machine-code` takes those that begin with `proof_`.
 //!
 //! Ends with 1 where something is not as it must be, with 2 where it could not be looked at.
 

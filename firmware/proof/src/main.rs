@@ -4,12 +4,12 @@
 //! cargo build --release -p galpix-proof --target thumbv6m-none-eabi
 //! ```
 //!
-//! Everything is called with inputs that the optimiser knows nothing of. What panics calls the panic handler, which calls a
-//! function that does not exist: where the linker finds a way there, it says so and fails. With the feature `bad` there is
-//! one, to see that it does.
+//! Everything is called with inputs that the optimiser knows nothing of. What panics calls the panic handler, which
+//! calls a function that does not exist: where the linker finds a way there, it says so and fails. With the feature
+//! `bad` there is one, to see that it does.
 //!
-//! The program is never run. `galpix-check machine-code` reads it: in what the `proof_` functions reach there must be no
-//! product, quotient, float or trap, and in each `planted_` function there is one.
+//! The program is never run. `galpix-check machine-code` reads it: in what the `proof_` functions reach there must be
+//! no product, quotient, float or trap, and in each `planted_` function there is one.
 
 #![no_std]
 #![no_main]

@@ -1,5 +1,5 @@
-//! The calls. Each is a function of its own, so that the machine code of what happens in every frame (`proof_`) can be told
-//! from that of setting up and of looking at single galpixels, which may multiply (`call_`).
+//! The calls. Each is a function of its own, so that the machine code of what happens in every frame (`proof_`) can be
+//! told from that of setting up and of looking at single galpixels, which may multiply (`call_`).
 
 use core::hint::black_box;
 

@@ -1,8 +1,8 @@
 //! Instructions, counted by a timer.
 //!
-//! Under QEMU's `-icount shift=6` each instruction takes 64 ns of the guest's time, 1.6 ticks of the board's timer, and a
-//! timer that is read is exact to the instruction. So a count repeats exactly. Without `-icount` the timer follows the host's
-//! clock; then there is no [`Clock`] to be had.
+//! Under QEMU's `-icount shift=6` each instruction takes 64 ns of the guest's time, 1.6 ticks of the board's timer, and
+//! a timer that is read is exact to the instruction. So a count repeats exactly. Without `-icount` the timer follows
+//! the host's clock; then there is no [`Clock`] to be had.
 
 use core::sync::atomic::{Ordering, compiler_fence};
 

@@ -1,5 +1,5 @@
-//! The board: all that touches registers or raw memory, and all `unsafe`. An Arm MPS2 with the image AN386 (Cortex-M4), as
-//! QEMU models it.
+//! The board: all that touches registers or raw memory, and all `unsafe`. An Arm MPS2 with the image AN386 (Cortex-M4),
+//! as QEMU models it.
 
 use core::mem::{align_of, size_of};
 use core::ptr;

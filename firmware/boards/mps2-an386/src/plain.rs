@@ -1,5 +1,5 @@
-//! What one writes first, to stand beside the engine: a struct of six numbers a pixel, moved one by one. No acceleration, no
-//! motion in depth, no winner map; positions are exact, or as exact as floats are.
+//! What one writes first, to stand beside the engine: a struct of six numbers a pixel, moved one by one. No
+//! acceleration, no motion in depth, no winner map; positions are exact, or as exact as floats are.
 
 /// In integers: position and velocity with 16 fraction bits.
 #[derive(Clone, Copy, Default)]

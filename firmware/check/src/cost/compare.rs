@@ -70,9 +70,8 @@ pub fn spreads(run: &Table) -> Vec<String> {
     let too_far = |spread: &Spread<'_>| (spread.most - spread.least) * 100 > spread.least * MOST_SPREAD;
     let line = |spread: Spread<'_>| {
         let ([target, layout, rung], per_cent) = (spread.what, spread.per_cent());
-        format!(
-            "{target},{layout},{rung}: constant work spreads by {per_cent:.2} % over pictures, more than {MOST_SPREAD} %"
-        )
+        let far = format!("{per_cent:.2} % over pictures, more than {MOST_SPREAD} %");
+        format!("{target},{layout},{rung}: constant work spreads by {far}")
     };
     spread(run).into_iter().filter(too_far).map(line).collect()
 }

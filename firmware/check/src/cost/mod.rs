@@ -1,7 +1,8 @@
 //! What the cost bench counts, beside the committed table.
 //!
-//! A count repeats exactly with one compiler; another one moves it by some per cent. So a row may differ by [`compare::MOST`]
-//! before it is said to; a change of the engine that is meant is written into the table, where the next review sees it.
+//! A count repeats exactly with one compiler; another one moves it by some per cent. So a row may differ by
+//! [`compare::MOST`] before it is said to; a change of the engine that is meant is written into the table, where the
+//! next review sees it.
 
 mod compare;
 mod document;

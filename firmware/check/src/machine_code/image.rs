@@ -1,8 +1,8 @@
 //! A linked program as a graph: functions and data that refer to each other.
 //!
-//! The linker is asked to keep the relocations (`--emit-relocs`): whatever code or data mentions, by a call, a jump or an
-//! address, stands in them. So everything that a call can ever run is reached, also what is only called through a pointer;
-//! there may be more, never less.
+//! The linker is asked to keep the relocations (`--emit-relocs`): whatever code or data mentions, by a call, a jump or
+//! an address, stands in them. So everything that a call can ever run is reached, also what is only called through a
+//! pointer; there may be more, never less.
 
 use object::read::elf::{ElfFile32, ElfSection32, FileHeader, SectionHeader};
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, RelocationTarget, SectionIndex, SymbolKind, elf};
@@ -60,10 +60,15 @@ fn is_loaded(file: &ElfFile32<'_>, section: &ElfSection32<'_, '_>) -> bool {
     section.elf_section_header().sh_flags(file.endian()) & elf::SHF_ALLOC != 0
 }
 
+fn short(name: &str) -> &str {
+    let without_types = name.split("::<").next().unwrap_or_default();
+    without_types.rsplit("::").next().unwrap_or_default()
+}
+
 impl Function {
-    /// The last part of the name.
+    /// The last part of the name, without its types, which not every way of mangling keeps.
     pub fn short_name(&self) -> &str {
-        self.name.rsplit("::").next().unwrap_or_default()
+        short(&self.name)
     }
 }
 
@@ -149,8 +154,8 @@ impl Image {
                 let offset = at.wrapping_sub(section.address()) as usize;
                 let word = section.data()?.get(offset..).and_then(|rest| rest.first_chunk::<4>());
                 let target = match word {
-                    // Arm keeps what is added to a symbol in the place itself, which the linker has overwritten, with the sum
-                    // where the place is a whole word. Elsewhere the symbol is the thing itself.
+                    // Arm keeps what is added to a symbol in the place itself, which the linker has overwritten, with
+                    // the sum where the place is a whole word. Elsewhere the symbol is the thing itself.
                     Some(word) if relocation.has_implicit_addend() && symbol.kind() == SymbolKind::Section => {
                         u64::from(u32::from_le_bytes(*word))
                     }
@@ -180,5 +185,20 @@ impl Image {
         }
         let holds = |data: &Data| data.address <= address && address - data.address < data.size;
         self.data.iter().position(holds).map_or(Mention::Unknown(address), Mention::Data)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn a_name_is_short_with_and_without_types() {
+        assert_eq!(short("galpix_proof::passes::proof_edge"), "proof_edge");
+        assert_eq!(
+            short("galpix_proof::passes::proof_edge::<core::L, galpix_core::galpixel::Static<P>>"),
+            "proof_edge"
+        );
+        assert_eq!(short("memcpy"), "memcpy");
     }
 }

@@ -1,7 +1,7 @@
 //! "Additions and shifts only" for a linked program: what its functions reach is read, instruction by instruction.
 //!
-//! The program must be linked with `--emit-relocs`, see [`image`]. Setting up a map may multiply; a frame must not. So what is
-//! read are the functions named, and everything that they reach.
+//! The program must be linked with `--emit-relocs`, see [`image`]. Setting up a map may multiply; a frame must not. So
+//! what is read are the functions named, and everything that they reach.
 
 mod image;
 mod instructions;
@@ -13,8 +13,8 @@ use crate::Findings;
 use image::Image;
 use reach::{Finding, judge};
 
-/// Reads an ELF file: the functions with these names, or those that begin with `proof_`, must be clean, and in each that
-/// begins with `planted_` a fault must be found.
+/// Reads an ELF file: the functions with these names, or those that begin with `proof_`, must be clean, and in each
+/// that begins with `planted_` a fault must be found.
 pub fn run(file: &str, names: &[&str]) -> Result<Findings, String> {
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
     let image = Image::read(&bytes).map_err(|error| format!("{file}: {error}"))?;

@@ -34,8 +34,8 @@ pub struct Verdict {
 
 /// What a function of the compiler's own is for.
 enum Helper {
-    /// To copy, fill, compare, or to shift 64 bits. Judged by that: filling memory multiplies its byte by 0x0101_0101, once a
-    /// call.
+    /// To copy, fill, compare, or to shift 64 bits. Judged by that: filling memory multiplies its byte by 0x0101_0101,
+    /// once a call.
     Harmless,
     /// Arithmetic.
     Arithmetic,
