@@ -91,9 +91,42 @@ pub fn fill<L: Layout, B: Budget<L>>(
     tally: &mut Tally,
 ) {
     let rounds = rung.rounds(reach);
-    let mut filler = Filler { front, back, winners, edges, rung, tally, left: None, right: 0 };
+    let starts = back.grid().starts();
+    let mut filler = Filler::new(front, back, winners, edges, rung, tally);
     for round in 0..rounds {
-        filler.round(round, round + 1 == rounds);
+        for (y, &row) in (0..).zip(starts) {
+            filler.row(y, row, row, round, round + 1 == rounds);
+        }
+    }
+}
+
+/// One round of [`fill`] for one row; in the last round none of its holes is left undecided. The rows of `back` may lie
+/// elsewhere than those of `front`, whose cells `winners` counts in.
+pub(crate) struct RowFill<'f> {
+    /// The edge map of `front`.
+    pub edges: &'f [u32],
+    /// What holes are filled with.
+    pub rung: Rung,
+    /// The row.
+    pub y: i32,
+    /// The round.
+    pub round: u32,
+    /// Whether it is the last one.
+    pub last: bool,
+}
+
+impl RowFill<'_> {
+    /// Goes over the row.
+    pub fn fill<L: Layout, B: Budget<L>>(
+        &self,
+        front: &Galpixmap<'_, L, B>,
+        back: &mut Galpixmap<'_, L, B>,
+        winners: &mut [u32],
+        tally: &mut Tally,
+    ) {
+        let (Some(row), Some(before)) = (back.grid().row(self.y), front.grid().row(self.y)) else { return };
+        let mut filler = Filler::new(front, back, winners, self.edges, self.rung, tally);
+        filler.row(self.y, row, before, self.round, self.last);
     }
 }
 
@@ -104,35 +137,46 @@ struct Filler<'f, 'p, 'q, L, B> {
     edges: &'f [u32],
     rung: Rung,
     tally: &'f mut Tally,
+    /// The first cell of the row that is visited, in the map before.
+    before: u32,
     /// The last cell of this row, left of the one that is visited, that was not empty when the round began.
     left: Option<u32>,
     /// The column of the first such cell to the right, as far as it is known.
     right: u32,
 }
 
-impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
-    /// Visits all holes; in the last round none is left undecided.
-    fn round(&mut self, round: u32, last: bool) {
-        let grid = *self.back.grid();
-        for (y, &row) in (0..).zip(grid.starts()) {
-            (self.left, self.right) = (None, 0);
-            let mut x = 0;
-            while x < grid.width() {
-                let run = (grid.width() - x).min(RUN);
-                // Most runs have no hole: look at all of a run before looking at any of its cells.
-                if !self.back.any_empty(row + x, run) {
-                    self.left = Some(row + x + run - 1);
-                } else {
-                    for x in x..x + run {
-                        if self.back.class(row + x) == Class::Empty {
-                            self.hole(row, x, y, round, last);
-                        } else {
-                            self.left = Some(row + x);
-                        }
+impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
+    fn new(
+        front: &'f Galpixmap<'p, L, B>,
+        back: &'f mut Galpixmap<'q, L, B>,
+        winners: &'f mut [u32],
+        edges: &'f [u32],
+        rung: Rung,
+        tally: &'f mut Tally,
+    ) -> Self {
+        Self { front, back, winners, edges, rung, tally, before: 0, left: None, right: 0 }
+    }
+
+    /// Visits the holes of row `y`, which starts at cell `row`, and at cell `before` of the map before.
+    fn row(&mut self, y: i32, row: u32, before: u32, round: u32, last: bool) {
+        (self.before, self.left, self.right) = (before, None, 0);
+        let width = self.back.grid().width();
+        let mut x = 0;
+        while x < width {
+            let run = (width - x).min(RUN);
+            // Most runs have no hole: look at all of a run before looking at any of its cells.
+            if !self.back.any_empty(row + x, run) {
+                self.left = Some(row + x + run - 1);
+            } else {
+                for x in x..x + run {
+                    if self.back.class(row + x) == Class::Empty {
+                        self.hole(row, x, y, round, last);
+                    } else {
+                        self.left = Some(row + x);
                     }
                 }
-                x += run;
             }
+            x += run;
         }
     }
 
@@ -172,7 +216,7 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     /// What the rung puts into a cell that is no bullet hole.
     fn unobscured(&mut self, row: u32, x: u32) -> Words {
         let record = self.front.record();
-        let before = self.front.words_at(row + x).unwrap_or_default();
+        let before = self.front.words_at(self.before + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.rung >= Rung::Galdebris && known {
             let beside = if self.rung == Rung::Extend { self.beside(row, x) } else { None };

@@ -118,6 +118,20 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         Some(saturated)
     }
 
+    /// The words in which this map stores a galpixel, and how many of its fields had to be clamped. Those beyond the record's
+    /// are 0.
+    #[must_use]
+    pub fn stored(&self, galpixel: &Galpixel) -> ([u32; MAX_WORDS], u32) {
+        galpixel.stored::<L::Colour>(self.record())
+    }
+
+    /// The same words with another colour word: for many galpixels that differ in their colour only.
+    #[must_use]
+    pub fn recoloured(&self, mut words: [u32; MAX_WORDS], colour: u32) -> [u32; MAX_WORDS] {
+        self.record().colour().set(&mut words, colour);
+        words
+    }
+
     /// Reads the galpixel at column `x`, row `y` of the map (wings included).
     #[must_use]
     pub fn load(&self, x: i32, y: i32) -> Option<Galpixel> {

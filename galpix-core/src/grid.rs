@@ -79,6 +79,33 @@ impl<'r> Grid<'r> {
         Ok(Self { width, height: rows as u32, cells, wings, starts })
     }
 
+    /// The same rows over fewer cells: row `y` lies where row `y + rows` does, for maps of which only some rows are needed at
+    /// a time. The table of row starts is written into `starts`.
+    ///
+    /// *Errors:* no rows, or a table that is too short.
+    pub fn window(of: &Grid<'_>, rows: u32, starts: &'r mut [u32]) -> Result<Self, SetupError> {
+        if rows == 0 {
+            return Err(SetupError::Size { width: of.width, height: rows });
+        }
+        let (need, have) = (of.height as usize, starts.len());
+        let Some(starts) = starts.get_mut(..need) else {
+            return Err(SetupError::TooShort { plane: "table of row starts", need, have });
+        };
+        let cells = match of.starts.get(rows as usize) {
+            Some(&start) => start,
+            None => of.cells,
+        };
+        let mut start = 0;
+        for row in starts.iter_mut() {
+            *row = start;
+            start += of.width;
+            if start == cells {
+                start = 0;
+            }
+        }
+        Ok(Self { cells, starts, ..*of })
+    }
+
     /// Columns, wings included.
     #[must_use]
     pub const fn width(&self) -> u32 {

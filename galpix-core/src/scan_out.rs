@@ -138,12 +138,14 @@ mod panel {
             let inside = area.intersection(&Rectangle::new(Point::zero(), self.size()));
             let (left, width) = (inside.top_left.x.max(0) as u32, inside.size.width);
             let first = self.top + inside.top_left.y.max(0) as u32;
-            let colours = (first..first + inside.size.height)
-                .flat_map(|y| super::span(self.map, y, left, width))
-                .map(L::Colour::pixel);
             // Drawn from the target's origin on, as the trait asks.
             let place = Rectangle::new(inside.top_left - area.top_left, inside.size);
-            target.fill_contiguous(&place, colours)
+            let row = |y: u32| super::span(self.map, y, left, width).map(L::Colour::pixel);
+            if inside.size.height == 1 {
+                // A row alone goes out without the bookkeeping of several.
+                return target.fill_contiguous(&place, row(first));
+            }
+            target.fill_contiguous(&place, (first..first + inside.size.height).flat_map(row))
         }
     }
 }

@@ -4,65 +4,202 @@ use super::{laplacian, set};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
+use crate::record::{MAX_WORDS, Record};
 
 /// Cells of a word of the edge map.
 const WORD: u32 = 32;
 
-/// No Laplacian is larger.
-const LARGEST: u32 = 1 << 30;
+/// Cells of a run that are looked at before all of it is.
+const GLANCE: u32 = 4;
+
+/// No Laplacian of galpixels is larger, and none differs from it by more than a word holds.
+const LARGEST: u32 = (1 << 30) - 1;
 
 /// [`super::mark`] for processors without vector registers: the same arguments, the same bits.
+///
+/// Strip by strip of a word's width, down the rows: so each row of a strip is looked at once for being of one depth.
 pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32, edges: &mut [u32]) -> u32 {
     edges.fill(0);
-    let mut count = 0;
-    let mut up = 0;
-    let mut rows = front.grid().starts().iter().copied().peekable();
-    while let Some(row) = rows.next() {
-        let down = rows.peek().copied().unwrap_or(row);
-        count += mark_row(front, threshold.min(LARGEST), [up, row, down], edges);
+    let grid = *front.grid();
+    let threshold = threshold.min(LARGEST) as i32;
+    let (mut count, mut x) = (0, 0);
+    while x < grid.width() {
+        let cells = (grid.width() - x).min(WORD);
+        let mut rows = grid.starts().iter().copied().peekable();
+        // What lies beyond the map is like the row itself.
+        let mut up = Strip { start: 0, key: None };
+        let mut row = rows.next().map_or(up, |row| Strip::of(front, row + x, cells));
         up = row;
+        loop {
+            let next = rows.next();
+            let down = next.map_or(row, |down| Strip::of(front, down + x, cells));
+            count += row.mark(front, [up, down], (x, cells), threshold, edges);
+            (up, row) = (row, down);
+            if next.is_none() {
+                break;
+            }
+        }
+        x += cells;
     }
     count
 }
 
-/// Marks the edges of the row that starts at the second of `rows`, which lies between those that start at the others.
-#[inline(never)]
-fn mark_row<L: Layout, B: Budget<L>>(
-    front: &Galpixmap<'_, L, B>,
-    threshold: u32,
-    [up, row, down]: [u32; 3],
-    edges: &mut [u32],
-) -> u32 {
-    let width = front.grid().width();
-    let Some(mut z0) = front.key_at(row) else { return 0 };
-    let (mut left, mut count, mut x) = (z0, 0, 0);
-    // Class 0 is a galpixel, and the class stands above the depth.
-    let flag = |z0: u32, left: u32, right: u32, up: u32, down: u32| {
-        let others = front.class_of(z0 | left | right | up | down) != 0;
-        let source = laplacian(z0 as i32, left as i32, right as i32, up as i32, down as i32);
-        (others | ((source as u32).wrapping_add(threshold) > threshold << 1)) as u32
-    };
-    while x < width {
-        let cells = (WORD - ((row + x) & (WORD - 1))).min(width - x);
-        // The last column has no neighbour to the right: it is its own.
-        let paired = cells.min(width - 1 - x);
-        let keys = |start: u32| front.keys((start + x) as usize..(start + x + paired) as usize);
-        let mut flags = 0;
-        for ((right, up), down) in keys(row + 1).zip(keys(up)).zip(keys(down)) {
-            let flag = flag(z0, left, right, up, down);
-            count += flag;
-            flags = flags >> 1 | flag << (WORD - 1);
-            (left, z0) = (z0, right);
-        }
-        if paired < cells
-            && let (Some(up), Some(down)) = (front.key_at(up + width - 1), front.key_at(down + width - 1))
-        {
-            let flag = flag(z0, left, z0, up, down);
-            count += flag;
-            flags = flags >> 1 | flag << (WORD - 1);
-        }
-        set(edges, row + x, flags >> (WORD - cells));
-        x += cells;
+/// A row of a strip.
+#[derive(Clone, Copy)]
+struct Strip {
+    /// Its first cell.
+    start: u32,
+    /// The key of all its cells, if they are galpixels and have the same one.
+    key: Option<u32>,
+}
+
+impl Strip {
+    #[inline(always)]
+    fn of<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, start: u32, cells: u32) -> Self {
+        let key = front.key_at(start).filter(|&key| front.class_of(key) == 0);
+        let even = key.is_some() && is_even(front, start, cells.min(GLANCE)) && is_even(front, start, cells);
+        Self { start, key: key.filter(|_| even) }
     }
-    count
+
+    /// Marks what is on an edge of a row whose neighbours are `beside`; how many cells that are.
+    #[inline(always)]
+    fn mark<L: Layout, B: Budget<L>>(
+        self,
+        front: &Galpixmap<'_, L, B>,
+        [up, down]: [Self; 2],
+        (x, cells): (u32, u32),
+        threshold: i32,
+        edges: &mut [u32],
+    ) -> u32 {
+        let (first, width) = (self.start, front.grid().width());
+        // The first and the last column lack a neighbour: they are their own.
+        let z0 = front.key_at(first).unwrap_or_default();
+        let left = if x == 0 { Some(z0) } else { front.key_at(first - 1) };
+        let ends = x + cells == width;
+        if self.key.is_some()
+            && up.key == self.key
+            && down.key == self.key
+            && left == self.key
+            && (ends || front.key_at(first + cells) == self.key)
+        {
+            return 0;
+        }
+        let paired = cells - u32::from(ends);
+        let run = Run { right: first + 1, up: up.start, down: down.start };
+        let (mut flags, last) = run.flags(front, paired, threshold, left.unwrap_or(z0), z0);
+        if ends {
+            flags = flags >> 1 | run.next(paired).flag_of_last(front, threshold, last);
+        }
+        flags >>= WORD - cells;
+        set(edges, first, flags);
+        ones(flags)
+    }
+}
+
+/// Whether `cells` cells all have the key of the first one.
+#[inline(never)]
+fn is_even<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, start: u32, cells: u32) -> bool {
+    let record = *front.record();
+    let mut ones = [0; MAX_WORDS];
+    record.class().set(&mut ones, u32::MAX);
+    record.depth().set(&mut ones, u32::MAX);
+    let mut even = true;
+    for (plane, ones) in front.planes().iter().zip(ones).take(record.words()) {
+        if ones != 0 {
+            let cells = plane.get(start as usize..(start + cells) as usize).unwrap_or_default();
+            let first = cells.first().copied().unwrap_or_default();
+            even &= cells.iter().fold(0, |differ, cell| differ | cell ^ first) & ones == 0;
+        }
+    }
+    even
+}
+
+/// Some cells of a row: where the neighbours of the first one are.
+#[derive(Clone, Copy)]
+struct Run {
+    right: u32,
+    up: u32,
+    down: u32,
+}
+
+impl Run {
+    const fn next(self, cells: u32) -> Self {
+        Self { right: self.right + cells, up: self.up + cells, down: self.down + cells }
+    }
+
+    /// The flags of `cells` cells, the last one in the highest bit, from the key left of them and that of the first one; and
+    /// these two for what comes next.
+    #[inline(never)]
+    fn flags<L: Layout, B: Budget<L>>(
+        self,
+        front: &Galpixmap<'_, L, B>,
+        cells: u32,
+        threshold: i32,
+        mut left: u32,
+        mut z0: u32,
+    ) -> (u32, [u32; 2]) {
+        let record = *front.record();
+        let count = cells as usize;
+        // Class, depth and its spill of each of the three rows, cut to one length.
+        let (class, (depth, spill)) = (record.class().words().0, record.depth().words());
+        let cut = |word: usize, start: u32| front.planes()[word].get(start as usize..)?.get(..count);
+        let rows = |start: u32| Some([cut(class, start)?, cut(depth, start)?, cut(spill, start)?]);
+        let (Some(rights), Some(ups), Some(downs)) = (rows(self.right), rows(self.up), rows(self.down)) else {
+            return (0, [left, z0]);
+        };
+        let mut flags = 0;
+        let mut lane = 0;
+        while lane < count {
+            let right = key::<L, B>(&record, &rights, lane);
+            let (up, down) = (key::<L, B>(&record, &ups, lane), key::<L, B>(&record, &downs, lane));
+            flags = flags >> 1 | flag(front, threshold, z0, [left, right, up, down]);
+            (left, z0) = (z0, right);
+            lane += 1;
+        }
+        (flags, [left, z0])
+    }
+
+    /// The flag of a cell that has nothing to its right.
+    fn flag_of_last<L: Layout, B: Budget<L>>(
+        self,
+        front: &Galpixmap<'_, L, B>,
+        threshold: i32,
+        [left, z0]: [u32; 2],
+    ) -> u32 {
+        let (up, down) = (front.key_at(self.up).unwrap_or(z0), front.key_at(self.down).unwrap_or(z0));
+        flag(front, threshold, z0, [left, z0, up, down])
+    }
+}
+
+/// Class and depth of a lane as one number, from its words with class, depth and what of it spills.
+#[inline(always)]
+fn key<L: Layout, B: Budget<L>>(record: &Record, [class, depth, spill]: &[&[u32]; 3], lane: usize) -> u32 {
+    match record.key_field() {
+        Some(key) if B::FIXED => key.extract().unsigned(class[lane], class[lane]),
+        _ => {
+            record.class().extract().unsigned(class[lane], class[lane]) << record.depth().bits
+                | record.depth().extract().unsigned(depth[lane], spill[lane])
+        }
+    }
+}
+
+/// The highest bit if a cell is on the edge: the sign of a number tells, no comparison has to become a bit.
+#[inline(always)]
+fn flag<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: i32, z0: u32, others: [u32; 4]) -> u32 {
+    let [left, right, up, down] = others;
+    let source = laplacian(z0 as i32, left as i32, right as i32, up as i32, down as i32);
+    let (below, above) = (threshold.wrapping_add(source), threshold.wrapping_sub(source));
+    // Class 0 is a galpixel, and the class stands above the depth.
+    let deepest = (1 << front.record().depth().bits) - 1;
+    let classes = deepest - (z0 | left | right | up | down) as i32;
+    (below | above | classes) as u32 & 1 << (WORD - 1)
+}
+
+/// How many bits are set, without the multiplication of `count_ones`.
+const fn ones(bits: u32) -> u32 {
+    let pairs = bits - (bits >> 1 & 0x5555_5555);
+    let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
+    let eights = fours + (fours >> 4) & 0x0f0f_0f0f;
+    let sixteens = eights + (eights >> 8);
+    sixteens + (sixteens >> 16) & 63
 }

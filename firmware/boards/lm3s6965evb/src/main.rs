@@ -1,0 +1,120 @@
+//! The display controller on an LM3S6965: a Cortex-M3 with 64 KiB of RAM and an OLED of 128 x 64 gray pixels.
+//!
+//! Two maps of 128 x 64 galpixels would take all of the RAM. So there is one, with galpixels of a single word, and a window
+//! of rows that rolls down it.
+
+#![no_std]
+#![no_main]
+#![forbid(unsafe_code)]
+
+mod clock;
+mod end;
+mod memory;
+mod panel;
+mod ssi;
+mod uart;
+
+use galpix_controller::board::Board;
+use galpix_controller::session::{Session, log_start};
+use galpix_core::frame::{Scratch, Settings};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::{Grid, Wings};
+use galpix_core::rolling::Rolling;
+use galpix_link::panel::Panel;
+
+use memory::{Lent, SHARES};
+use panel::{Band, Oled};
+
+/// The display as the host knows it.
+type Display = galpix_link::panel::Oled;
+/// How galpixels are stored.
+type Stored = galpix_core::galpixel::Static<Display>;
+
+/// What the board gives.
+struct Evaluation {
+    oled: Oled,
+    band: &'static mut Band,
+    vsyncs: u32,
+}
+
+impl Board for Evaluation {
+    type Pixel = embedded_graphics::pixelcolor::Gray4;
+    type Band = Band;
+
+    const TICKS_PER_FRAME: u32 = clock::TICKS_PER_FRAME;
+
+    fn vsync(&mut self) -> u32 {
+        let now = clock::wait_beyond(self.vsyncs);
+        let passed = now.wrapping_sub(self.vsyncs);
+        self.vsyncs = now;
+        passed
+    }
+
+    fn ticks(&self) -> u32 {
+        clock::ticks()
+    }
+
+    fn show(&mut self, mut draw: impl FnMut(&mut Band, u32, u32)) {
+        self.oled.begin();
+        let mut top = 0;
+        while top < panel::HEIGHT {
+            self.band.move_to(top);
+            draw(self.band, top, panel::BAND_ROWS);
+            self.oled.send(self.band);
+            top += panel::BAND_ROWS;
+        }
+    }
+
+    fn receive(&mut self) -> Option<u8> {
+        uart::receive()
+    }
+
+    fn send(&mut self, byte: u8) {
+        uart::send(byte);
+    }
+}
+
+#[cortex_m_rt::entry]
+fn main() -> ! {
+    let Some(peripherals) = cortex_m::Peripherals::take() else { end::fail() };
+    let lent = Lent::take();
+    uart::start();
+    let oled = Oled::start();
+    clock::start(peripherals.SYST);
+    log_start::<<Display as Panel>::Layout, _>(&Display::DESCRIPTION, Stored::new(), &SHARES);
+    let (_, stack) = galpix_registers::lm3s6965::stack();
+    defmt::info!("memory: {=usize} bytes are left for the stack", stack);
+
+    let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
+    let Ok(rolling) = rolling(lent.map, lent.window, lent.scratch, lent.starts, lent.turns) else { end::fail() };
+    let mut settings = Settings::for_depth(u32::from(Display::RECORD.depth().bits));
+    // With 16 depths a surface's neighbour is apart by one step already.
+    settings.edge_threshold = 1;
+    let session = Session::new(board, rolling, Display::DESCRIPTION, settings);
+    let mut deepest = 0;
+    session.run(|session| {
+        let (used, _) = galpix_registers::lm3s6965::stack();
+        // Rarely: the scan itself takes time.
+        if session.status().frame & 63 == 0 && used > deepest {
+            deepest = used;
+            defmt::info!("stack: {=usize} bytes used so far", used);
+        }
+    })
+}
+
+/// The map and its window over the memory of the program.
+fn rolling(
+    map: &'static mut [u32],
+    window: &'static mut [u32],
+    scratch: Scratch<'static>,
+    starts: &'static mut [u32],
+    turns: &'static mut [u32],
+) -> Result<Rolling<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
+    let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
+    let rolls = Grid::window(&grid, memory::WINDOW_ROWS as u32, turns)?;
+    Rolling::new(
+        Galpixmap::new(grid, Stored::new(), map)?,
+        Galpixmap::new(rolls, Stored::new(), window)?,
+        scratch,
+    )
+}

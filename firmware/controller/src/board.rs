@@ -1,0 +1,34 @@
+//! The seam: what a board gives. Everything else is shared.
+
+use core::convert::Infallible;
+
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::pixelcolor::PixelColor;
+
+/// A board with its panel.
+pub trait Board {
+    /// A pixel of its panel.
+    type Pixel: PixelColor;
+    /// What a band of the picture is drawn on. Its coordinates are those of the whole panel; what lies outside of the band is
+    /// not drawn.
+    type Band: DrawTarget<Color = Self::Pixel, Error = Infallible>;
+
+    /// Ticks of [`Self::ticks`] between two vsyncs.
+    const TICKS_PER_FRAME: u32;
+
+    /// Waits for the panel's next vsync. Returns how many there were since the last call: 1 if the frame was in time.
+    fn vsync(&mut self) -> u32;
+
+    /// A clock; wraps.
+    fn ticks(&self) -> u32;
+
+    /// Lets `draw` draw the whole picture, band by band from the top, each with its first row and its rows; then the panel
+    /// shows it.
+    fn show(&mut self, draw: impl FnMut(&mut Self::Band, u32, u32));
+
+    /// The next byte from the host, if one has come.
+    fn receive(&mut self) -> Option<u8>;
+
+    /// Sends a byte to the host, once there is room.
+    fn send(&mut self, byte: u8);
+}

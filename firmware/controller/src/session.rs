@@ -1,0 +1,289 @@
+//! The program: every vsync a frame, and between them what the host sends.
+//!
+//! One frame: listen to the line, let the renderer deliver its rows, propagate, wait for the vsync, show. Nothing in it waits
+//! for the host: an update that is late, short, corrupt or never comes changes only what the picture shows.
+
+use galpix_core::colour::Colour;
+use galpix_core::frame::Settings;
+use galpix_core::galpixel::Budget;
+use galpix_core::graft::graft;
+use galpix_core::layout::Layout;
+use galpix_core::scan_out::{PanelColour, View, row};
+use galpix_core::tally::Tally;
+use galpix_link::decode::Decoder;
+use galpix_link::frame::{Frame, Galpixels, MAX_ENCODED, NO_SCENE, Status};
+use galpix_link::panel::Description;
+use galpix_link::picture::PictureHash;
+use galpix_link::rejected::Rejected;
+
+use embedded_graphics::Drawable;
+use embedded_graphics::geometry::Point;
+use embedded_graphics::image::Image;
+
+use crate::board::Board;
+use crate::log;
+use crate::maps::Maps;
+use crate::overlay::Overlay;
+use crate::renderer::Renderer;
+use crate::scene;
+
+/// The most bytes from the line that one frame takes: 921 600 baud at 60 frames a second. What comes faster waits.
+pub const BYTES_PER_FRAME: u32 = 1536;
+
+/// Galpixels that were exact more frames ago are refused: twice the time for which they would be good.
+pub const OLDEST: u32 = 32;
+
+/// Frames to the second.
+const SECOND: u32 = 60;
+
+/// A colour of the maps on this board.
+type ColourOf<'p, M> = <<M as Maps<'p>>::Layout as Layout>::Colour;
+
+/// The controller of one panel.
+pub struct Session<'p, M, B> {
+    board: B,
+    maps: M,
+    panel: Description,
+    settings: Settings,
+    renderer: Option<Renderer>,
+    line: Line,
+    overlay: bool,
+    tally: Tally,
+    busy: u32,
+    lifetime: core::marker::PhantomData<&'p ()>,
+}
+
+/// What is known of the line to the host.
+struct Line {
+    decoder: Decoder,
+    status: Status,
+    /// In lockstep: whether the next frame may be made.
+    go: bool,
+}
+
+impl<'p, M, B> Session<'p, M, B>
+where
+    M: Maps<'p>,
+    M::Layout: Layout<Colour: PanelColour<Pixel = B::Pixel>>,
+    B: Board,
+{
+    /// A controller that shows the first built-in scene.
+    pub fn new(board: B, maps: M, panel: Description, settings: Settings) -> Self {
+        let status = Status {
+            fingerprint: panel.fingerprint,
+            width: panel.width,
+            height: panel.height,
+            words: panel.words,
+            ..Status::default()
+        };
+        let line = Line { decoder: Decoder::new(), status, go: false };
+        let (tally, lifetime) = (Tally::default(), core::marker::PhantomData);
+        let mut session =
+            Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, busy: 0, lifetime };
+        session.choose(0);
+        session
+    }
+
+    /// The maps.
+    pub const fn maps(&self) -> &M {
+        &self.maps
+    }
+
+    /// The board.
+    pub const fn board(&self) -> &B {
+        &self.board
+    }
+
+    /// The board.
+    pub const fn board_mut(&mut self) -> &mut B {
+        &mut self.board
+    }
+
+    /// How the controller is.
+    pub fn status(&self) -> Status {
+        Status { frame: self.maps.frame(), ..self.line.status }
+    }
+
+    /// Shows the map as it is, and goes on with a frame at each vsync. `every` sees the session after each of them; it is for
+    /// what the board wants to watch.
+    pub fn run(mut self, mut every: impl FnMut(&mut Self)) -> ! {
+        self.board.vsync();
+        self.present();
+        loop {
+            self.frame();
+            every(&mut self);
+        }
+    }
+
+    /// Makes the next frame and shows it.
+    pub fn frame(&mut self) {
+        let begin = self.board.ticks();
+        self.listen(BYTES_PER_FRAME);
+        if let Some(renderer) = self.renderer {
+            let now = self.maps.frame();
+            renderer.next(self.maps.shown_mut(), now);
+        }
+        self.tally = self.maps.step(&self.settings);
+        let made = self.board.ticks();
+        let missed = self.board.vsync().saturating_sub(1);
+        let shown = self.board.ticks();
+        if missed > 0 && !self.line.status.lockstep {
+            self.line.status.late = self.line.status.late.wrapping_add(missed);
+            log::late(self.maps.frame(), missed);
+        }
+        self.present();
+        self.busy = made.wrapping_sub(begin).wrapping_add(self.board.ticks().wrapping_sub(shown));
+        self.line.seconds(self.maps.frame(), &self.tally, self.busy, B::TICKS_PER_FRAME);
+    }
+
+    /// Ticks that the last frame took, without what it waited.
+    pub const fn busy(&self) -> u32 {
+        self.busy
+    }
+
+    /// Shows the map. In lockstep says so, and waits until the host lets it go on.
+    fn present(&mut self) {
+        let overlay = self.overlay.then(|| Overlay::new(self.maps.frame(), &self.tally));
+        let map = self.maps.shown();
+        let ink = [[255; 3], [0; 3]].map(|rgb| ColourOf::<'p, M>::pixel(ColourOf::<'p, M>::from_rgb888(rgb)));
+        self.board.show(|band, top, rows| {
+            for y in top..top + rows {
+                // A band is infallible.
+                let _ = Image::new(&View::band(map, y, 1), Point::new(0, y as i32)).draw(band);
+            }
+            if let Some(overlay) = &overlay {
+                let _ = overlay.draw(band, (top, rows), ink);
+            }
+        });
+        if self.line.status.lockstep {
+            self.line.go = false;
+            self.say(&Frame::Shown { frame: self.maps.frame(), hash: self.hash() });
+            while self.line.status.lockstep && !self.line.go {
+                self.listen(1);
+            }
+            // The time that the host took is nobody's lateness.
+            self.board.vsync();
+        }
+    }
+
+    /// The hash of the picture, without the overlay.
+    fn hash(&self) -> u32 {
+        let mut hash = PictureHash::new();
+        for y in 0..u32::from(self.panel.height) {
+            hash.row(row(self.maps.shown(), y));
+        }
+        hash.finish()
+    }
+
+    /// Takes what has come over the line, at most so many bytes.
+    fn listen(&mut self, most: u32) {
+        for _ in 0..most {
+            let Some(byte) = self.board.receive() else { return };
+            let now = self.maps.frame();
+            let asked = match self.line.decoder.push(byte) {
+                None => continue,
+                Some(Ok(Frame::Galpixels(galpixels))) => {
+                    take(&mut self.maps, &self.panel, &self.settings, &galpixels, now).map(|()| Asked::Galpixels)
+                }
+                Some(Ok(Frame::Hello)) => Ok(Asked::Status),
+                Some(Ok(Frame::Scene { number })) => Ok(Asked::Scene(number)),
+                Some(Ok(Frame::Lockstep { on })) => Ok(Asked::Lockstep(on)),
+                Some(Ok(Frame::Overlay { on })) => Ok(Asked::Overlay(on)),
+                Some(Ok(Frame::Go)) => Ok(Asked::Go),
+                // What a device says it is not told.
+                Some(Ok(Frame::Status(_) | Frame::Shown { .. })) => Err(Rejected::UnknownKind),
+                Some(Err(cause)) => Err(cause),
+            };
+            let done = asked.and_then(|asked| self.obey(asked));
+            if let Err(cause) = done {
+                self.line.status.rejected.count(cause);
+                log::refused(cause);
+            }
+        }
+    }
+
+    fn obey(&mut self, asked: Asked) -> Result<(), Rejected> {
+        match asked {
+            Asked::Galpixels => self.line.status.accepted = self.line.status.accepted.wrapping_add(1),
+            Asked::Status => self.say(&Frame::Status(self.status())),
+            Asked::Scene(number) if self.choose(number) => {}
+            Asked::Scene(_) => return Err(Rejected::UnknownKind),
+            Asked::Lockstep(on) => self.line.status.lockstep = on,
+            Asked::Overlay(on) => self.overlay = on,
+            Asked::Go => self.line.go = true,
+        }
+        Ok(())
+    }
+
+    /// Begins a scene, or an empty map; whether there is such a scene.
+    fn choose(&mut self, number: u8) -> bool {
+        let now = self.maps.frame();
+        let map = self.maps.shown_mut();
+        match scene::ALL.get(usize::from(number)) {
+            Some(scene) => {
+                let renderer = Renderer::new(scene, now);
+                renderer.begin(map);
+                self.renderer = Some(renderer);
+            }
+            None if number == NO_SCENE => {
+                map.clear();
+                self.renderer = None;
+            }
+            None => return false,
+        }
+        self.line.status.scene = number;
+        true
+    }
+
+    fn say(&mut self, frame: &Frame<'_>) {
+        let mut buffer = [0; MAX_ENCODED];
+        // What a device says always fits.
+        for &byte in frame.encode(&mut buffer).unwrap_or_default() {
+            self.board.send(byte);
+        }
+    }
+}
+
+/// What a frame from the host asks for, without what it borrows.
+enum Asked {
+    Galpixels,
+    Status,
+    Scene(u8),
+    Lockstep(bool),
+    Overlay(bool),
+    Go,
+}
+
+/// Grafts galpixels from the host.
+fn take<'p, M: Maps<'p>>(
+    maps: &mut M,
+    panel: &Description,
+    settings: &Settings,
+    galpixels: &Galpixels<'_>,
+    now: u32,
+) -> Result<(), Rejected> {
+    let stored = galpixels.stored(panel)?;
+    if galpixels.age(now) > OLDEST {
+        return Err(Rejected::TooOld);
+    }
+    for galpixel in stored {
+        let place = (i32::from(galpixel.x), i32::from(galpixel.y));
+        graft(maps.shown_mut(), place, &galpixel.words, settings.rounding, galpixels.stamp, now);
+    }
+    Ok(())
+}
+
+impl Line {
+    /// Logs once a second.
+    fn seconds(&mut self, frame: u32, tally: &Tally, busy: u32, of: u32) {
+        self.status.frame = frame;
+        if frame % SECOND == 0 {
+            log::second(&self.status, tally, busy, of);
+        }
+    }
+}
+
+/// Logs what a controller starts with: the panel, the stored form, and the memory by its use.
+pub fn log_start<L: Layout, B: Budget<L>>(panel: &Description, budget: B, memory: &[(&'static str, usize)]) {
+    log::started(panel, budget.record(), memory);
+}
