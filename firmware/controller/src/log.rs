@@ -2,9 +2,9 @@
 
 use galpix_core::record::Record;
 use galpix_core::tally::Tally;
+use galpix_link::frame::Status;
 use galpix_link::panel::Description;
 use galpix_link::rejected::Rejected;
-use galpix_link::frame::Status;
 
 /// At the start: the display, how its galpixels are stored, and where the memory goes.
 pub fn started(panel: &Description, record: &Record, memory: &[(&'static str, usize)]) {

@@ -2,6 +2,7 @@
 //!
 //! It is drawn over each band after the galpixmap, and never into it: what it covers goes on moving underneath.
 
+use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Dimensions, Point};
 use embedded_graphics::mono_font::ascii::FONT_4X6;
@@ -9,7 +10,6 @@ use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder};
 use embedded_graphics::pixelcolor::PixelColor;
 use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
-use embedded_graphics::Drawable;
 use galpix_core::tally::Tally;
 use heapless::String;
 

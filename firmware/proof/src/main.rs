@@ -52,6 +52,7 @@ struct Inputs<'m> {
     settings: Settings,
     galpixel: Galpixel,
     rows: &'m mut [u32],
+    window_rows: &'m mut [u32],
     maps: [&'m mut [u32]; 2],
     scratch: [&'m mut [u32]; 2],
     line: &'m mut [u16],
@@ -59,7 +60,7 @@ struct Inputs<'m> {
 
 /// Calls everything.
 fn run() {
-    let (mut rows, mut front, mut back) = ([0; 8], [0; 512], [0; 512]);
+    let (mut rows, mut window_rows, mut front, mut back) = ([0; 8], [0; 8], [0; 512], [0; 512]);
     let (mut winners, mut edges, mut line) = ([0; 64], [0; 2], [0; 8]);
     let mut inputs = black_box(Inputs {
         size: [8, 8],
@@ -69,6 +70,7 @@ fn run() {
         settings: Settings { work: Work::Skipping, ..Settings::for_depth(16) },
         galpixel: Galpixel::default(),
         rows: &mut rows,
+        window_rows: &mut window_rows,
         maps: [&mut front, &mut back],
         scratch: [&mut winners, &mut edges],
         line: &mut line,

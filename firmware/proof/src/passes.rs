@@ -6,8 +6,10 @@ use core::hint::black_box;
 use galpix_core::frame::{self, Controller, Scratch, Settings};
 use galpix_core::galpixel::{Budget, Galpixel, Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
+use galpix_core::graft::{Grafted, graft};
 use galpix_core::grid::Grid;
 use galpix_core::layout::Layout;
+use galpix_core::rolling::Rolling;
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 use galpix_core::{edge, fill, scan_out, sweep};
@@ -19,7 +21,12 @@ type Map<'p, L, B> = Galpixmap<'p, L, B>;
 /// Everything a firmware calls, for a layout and a budget fixed at compile time.
 #[inline(never)]
 pub fn call_all<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
-    let Inputs { size, wings, place, frame, settings, galpixel, rows, maps, scratch, line } = black_box(inputs);
+    with_two_maps::<L, P>(inputs);
+    with_one_map::<L, P>(inputs);
+}
+
+fn with_two_maps<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
+    let Inputs { size, wings, place, frame, settings, galpixel, rows, maps, scratch, line, .. } = black_box(inputs);
     let ([front, back], [winners, edges], [x, y]) = (maps, scratch, *place);
     let budget = Static::<P>::new();
     let Ok(grid) = Grid::new(size[0], size[1], *wings, rows) else { return };
@@ -41,6 +48,20 @@ pub fn call_all<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
     black_box(proof_controller(&mut controller, settings));
     proof_scan_out(controller.front(), *frame, line);
     black_box(&line);
+}
+
+fn with_one_map<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
+    let Inputs { size, wings, place, frame, settings, rows, window_rows, maps, scratch, .. } = black_box(inputs);
+    let ([map, window], [winners, edges]) = (maps, scratch);
+    let budget = Static::<P>::new();
+    let Ok(grid) = Grid::new(size[0], size[1], *wings, rows) else { return };
+    let Ok(rolls) = Grid::window(&grid, size[1], window_rows) else { return };
+    let Ok(map) = Map::<L, _>::over(grid, budget, map) else { return };
+    let Ok(window) = Map::<L, _>::over(rolls, budget, window) else { return };
+    let Ok(mut rolling) = Rolling::new(map, window, Scratch { winners, edges }) else { return };
+    black_box(proof_rolling(&mut rolling, settings));
+    let rounding = settings.rounding;
+    black_box(proof_graft(rolling.map_mut(), (place[0], place[1]), black_box(&[0; 8]), rounding, *frame));
 }
 
 #[inline(never)]
@@ -116,6 +137,22 @@ fn proof_frame<L: Layout, B: Budget<L>>(
 #[inline(never)]
 fn proof_controller<L: Layout, B: Budget<L>>(controller: &mut Controller<'_, L, B>, settings: &Settings) -> Tally {
     controller.step(settings)
+}
+
+#[inline(never)]
+fn proof_rolling<L: Layout, B: Budget<L>>(rolling: &mut Rolling<'_, L, B>, settings: &Settings) -> Tally {
+    rolling.step(settings)
+}
+
+#[inline(never)]
+fn proof_graft<L: Layout, B: Budget<L>>(
+    map: &mut Map<'_, L, B>,
+    place: (i32, i32),
+    words: &[u32],
+    rounding: Rounding,
+    frame: u32,
+) -> Grafted {
+    graft(map, place, words, rounding, frame, black_box(frame))
 }
 
 /// A row for a display of 16-bit words.

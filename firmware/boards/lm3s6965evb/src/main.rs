@@ -112,9 +112,5 @@ fn rolling(
 ) -> Result<Rolling<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
     let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
     let rolls = Grid::window(&grid, memory::WINDOW_ROWS as u32, turns)?;
-    Rolling::new(
-        Galpixmap::new(grid, Stored::new(), map)?,
-        Galpixmap::new(rolls, Stored::new(), window)?,
-        scratch,
-    )
+    Rolling::new(Galpixmap::new(grid, Stored::new(), map)?, Galpixmap::new(rolls, Stored::new(), window)?, scratch)
 }

@@ -133,7 +133,11 @@ impl DrawTarget for Band {
         Ok(())
     }
 
-    fn fill_contiguous<I: IntoIterator<Item = Gray4>>(&mut self, area: &Rectangle, colours: I) -> Result<(), Infallible> {
+    fn fill_contiguous<I: IntoIterator<Item = Gray4>>(
+        &mut self,
+        area: &Rectangle,
+        colours: I,
+    ) -> Result<(), Infallible> {
         let Rectangle { top_left: Point { x, y }, size } = *area;
         let row = if x == 0 && size == Size::new(WIDTH, 1) { self.row(y) } else { None };
         let Some(row) = row else {

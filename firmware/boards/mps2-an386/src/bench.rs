@@ -9,6 +9,7 @@ use galpix_core::galpixel::{Fixed, Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::Grid;
 use galpix_core::layout::Layout;
+use galpix_core::rolling::{self, Rolling};
 use galpix_core::scan_out;
 use galpix_core::sweep::sweep;
 use galpix_core::tally::Tally;
@@ -36,6 +37,8 @@ pub struct Bench {
     pub painted: &'static mut [u32],
     /// A map and its winners between sweep and fill.
     pub swept: [&'static mut [u32]; 2],
+    /// Row starts of a window.
+    pub window_rows: &'static mut [u32],
 }
 
 /// Ticks of each stage.
@@ -46,6 +49,7 @@ struct Ticks {
     sweep_alone: u64,
     fill: [u64; Rung::ALL.len()],
     frame: u64,
+    rolling: u64,
 }
 
 impl Bench {
@@ -60,6 +64,8 @@ impl Bench {
             let mut map = Galpixmap::<L, _>::new(self.grid, budget, self.painted).expect("memory enough");
             picture.paint(&mut map);
             self.skipping::<L, P>(layout, picture, words);
+        }
+        for picture in Picture::ALL.into_iter().chain(Picture::EXTREMES) {
             self.constant::<L, P>(layout, picture);
         }
         self.whatever_the_picture::<L, P>(layout, words);
@@ -81,15 +87,27 @@ impl Bench {
             say(Row { stage: "fill", rung: rung.name(), ..row }, ticks);
         }
         say(Row { stage: "frame", rung: Rung::default().name(), ..row }, ticks.frame);
+        say(Row { stage: "rolling", rung: Rung::default().name(), ..row }, ticks.rolling);
     }
 
-    /// One frame, stage by stage, and then as a whole, which is what stays.
+    /// One frame in one map, then stage by stage, then as a whole, which is what stays.
     fn frame<L: Layout, P: Profile>(&mut self, frame: u32, words: usize, ticks: &mut Ticks) {
-        let Self { clock, grid, maps, scratch, swept, .. } = self;
+        let Self { clock, grid, maps, scratch, swept, window_rows, .. } = self;
         let (clock, budget) = (*clock, Static::<P>::new());
-        let [front, back_memory] = maps;
-        let front = Galpixmap::<L, _>::over(*grid, budget, front).expect("memory enough");
-        let settings = Settings::for_depth(front.record().depth().bits.into());
+        let [front_memory, back_memory] = maps;
+        back_memory[..words].copy_from_slice(&front_memory[..words]);
+        let map = Galpixmap::<L, _>::over(*grid, budget, back_memory).expect("memory enough");
+        let settings = Settings::for_depth(map.record().depth().bits.into());
+        {
+            let rows = rolling::rows(map.record(), settings.reach);
+            let rolls = Grid::window(grid, rows, window_rows).expect("a row at least");
+            let window = Galpixmap::over(rolls, budget, swept[0]).expect("memory enough");
+            let scratch = Scratch { winners: scratch.winners, edges: scratch.edges };
+            let mut rolling = Rolling::new(map, window, scratch).expect("rows and memory enough");
+            rolling.set_frame(black_box(frame));
+            ticks.rolling += clock.time(|| rolling.step(black_box(&settings))).0;
+        }
+        let front = Galpixmap::<L, _>::over(*grid, budget, front_memory).expect("memory enough");
         {
             let mut back = Galpixmap::<L, _>::over(*grid, budget, back_memory).expect("memory enough");
             let (rounding, frame) = (black_box(settings.rounding), black_box(frame));

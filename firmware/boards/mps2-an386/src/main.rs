@@ -62,6 +62,7 @@ fn main() -> ! {
         band: Grid::new(WIDTH, BAND, Wings::NONE, lend(BAND as usize)).expect("a size that can be laid out"),
         painted: lend(CELLS * MOST_WORDS),
         swept: [lend(CELLS * MOST_WORDS), lend(CELLS)],
+        window_rows: lend(HEIGHT as usize),
         maps: [FRONT, BACK],
         scratch: Scratch { winners: WINNERS, edges: EDGES },
     };

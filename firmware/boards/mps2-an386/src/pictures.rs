@@ -3,7 +3,7 @@
 //! A slanted background, textured, and 12 discs and rectangles before it at depths of their own.
 
 use fixed::types::I32F32;
-use galpix_core::galpixel::{Budget, Galpixel};
+use galpix_core::galpixel::{Budget, Class, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::layout::Layout;
 
@@ -20,6 +20,10 @@ pub enum Picture {
     Layers,
     /// Every galpixel by a motion and at a depth of its own, up to two cells a frame.
     Chaos,
+    /// Nothing moves, and all of it is equally far away: as little work as there can be, for constant work.
+    Flat,
+    /// Every other cell by chance is empty, the others move together, for constant work.
+    Holes,
 }
 
 /// A disc or a rectangle.
@@ -98,8 +102,11 @@ fn texture(x: i32, y: i32, tint: u32) -> [u8; 3] {
 }
 
 impl Picture {
-    /// All of them.
+    /// Those that are measured stage by stage.
     pub const ALL: [Self; 5] = [Self::Still, Self::Pan, Self::Zoom, Self::Layers, Self::Chaos];
+
+    /// Those that constant work is held to beside them.
+    pub const EXTREMES: [Self; 2] = [Self::Flat, Self::Holes];
 
     /// As in tables.
     pub const fn name(self) -> &'static str {
@@ -109,6 +116,8 @@ impl Picture {
             Self::Zoom => "zoom",
             Self::Layers => "layers",
             Self::Chaos => "chaos",
+            Self::Flat => "flat",
+            Self::Holes => "holes",
         }
     }
 
@@ -143,7 +152,7 @@ impl Picture {
 
     fn set_in_motion(self, x: i32, y: i32, width: i32, height: i32, galpixel: &mut Galpixel) {
         const HUNDREDTH: i64 = (1 << 32) / 100;
-        let still = [I32F32::ZERO; 3];
+        let (still, cell) = ([I32F32::ZERO; 3], (y as u32) << 16 | x as u32);
         if self != Self::Layers {
             (galpixel.velocity, galpixel.acceleration, galpixel.luminosity_rate) = (still, still, I32F32::ZERO);
         }
@@ -152,8 +161,14 @@ impl Picture {
             Self::Still | Self::Layers => {}
             Self::Pan => galpixel.velocity = PAN,
             Self::Zoom => galpixel.velocity = [outwards(x, width / 2), outwards(y, height / 2), I32F32::ZERO],
+            Self::Flat => galpixel.depth = FAR,
+            Self::Holes => {
+                let hole = noise(29, cell) & 1 == 0;
+                galpixel.class = if hole { Class::Empty } else { Class::Galpixel };
+                galpixel.velocity = PAN;
+            }
             Self::Chaos => {
-                let own = |seed: u32, power: i32| swing(seed, (y as u32) << 16 | x as u32, power);
+                let own = |seed: u32, power: i32| swing(seed, cell, power);
                 galpixel.velocity = [own(21, 1), own(22, 1), own(23, -7)];
                 galpixel.acceleration = [own(24, -3), own(25, -3), own(26, -9)];
                 galpixel.depth = own(27, 0).abs();

@@ -46,17 +46,20 @@ fn cell(run: &Table, key: &Key) -> String {
 
 /// Layouts down, pictures to the right, for one stage of one target.
 fn by_picture(run: &Table, target: &str, stage: &str, rung: &str) -> String {
-    let mut pictures = run.values(|key| &key.picture);
-    pictures.retain(|&picture| picture != "any");
     let key = |layout: &str, picture: &str| {
         let mode = if layout.starts_with("plain") { "-" } else { "skipping" };
         let [target, layout, picture, mode, stage, rung] =
             [target, layout, picture, mode, stage, rung].map(str::to_owned);
         Key { target, layout, picture, mode, stage, rung }
     };
+    let layouts = run.values(|key| &key.layout);
+    let mut pictures = run.values(|key| &key.picture);
+    pictures.retain(|picture| layouts.iter().any(|layout| run.get(&key(layout, picture)).is_some()));
     let head: Vec<_> = ["layout"].into_iter().chain(pictures.iter().copied()).collect();
-    let layouts = run.values(|key| &key.layout).into_iter();
-    let with_any = layouts.filter(|layout| pictures.iter().any(|picture| run.get(&key(layout, picture)).is_some()));
+    let with_any = layouts
+        .iter()
+        .copied()
+        .filter(|layout| pictures.iter().any(|picture| run.get(&key(layout, picture)).is_some()));
     let row = |layout: &str| {
         let cells = pictures.iter().map(|picture| cell(run, &key(layout, picture)));
         [layout.to_owned()].into_iter().chain(cells).collect()
@@ -97,7 +100,8 @@ pub fn section(run: &Table) -> String {
     };
     let constant = table(&head, 2, groups.into_iter().map(row));
     let _ = write!(text, "\n## A whole frame with constant work: most over pictures, and spread\n\n{constant}");
-    for picture in run.values(|key| &key.picture) {
+    let staged = |picture: &str| run.rows().iter().any(|(key, _)| key.picture == picture && key.mode != "constant");
+    for picture in run.values(|key| &key.picture).into_iter().filter(|picture| staged(picture)) {
         let title = if picture == "any" { "any: what no picture changes" } else { picture };
         let _ = write!(text, "\n## Picture {title}\n\n{}", of_picture(run, picture, &targets, &columns));
     }

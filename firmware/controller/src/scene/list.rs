@@ -37,11 +37,7 @@ pub const ALL: [Scene; 3] = [
             },
             Body {
                 outline: Outline::Rectangle(70, 4),
-                texture: Texture {
-                    pattern: Pattern::Bars,
-                    size_log2: 3,
-                    colours: [[32, 160, 96], [16, 96, 64]],
-                },
+                texture: Texture { pattern: Pattern::Bars, size_log2: 3, colours: [[32, 160, 96], [16, 96, 64]] },
                 depth: 8,
                 paths: [Path::still(Number::ZERO), Path::still(number("30"))],
             },
