@@ -147,8 +147,10 @@ step_msrv() {
 
 # The firmware in the emulator: build for each board, run, compare with the simulator.
 step_firmware() {
-    [ -x firmware/test.sh ] || { skip "there is no firmware/test.sh yet"; return; }
-    firmware/test.sh
+    local status=0
+    firmware/test.sh || status=$?
+    [ "$status" != 3 ] || { skip "some steps of firmware/test.sh could not run, see above"; return; }
+    return "$status"
 }
 
 # --- running them ----------------------------------------------------------------------------------------------------

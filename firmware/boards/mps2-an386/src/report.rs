@@ -1,0 +1,33 @@
+//! Lines for whoever reads the run: a table as CSV, remarks behind `#`.
+
+use semihosting::println;
+
+use crate::clock::hundredths;
+
+/// What was measured.
+#[derive(Clone, Copy)]
+pub struct Row {
+    /// The layout, or the name of a kernel that is not the engine's.
+    pub layout: &'static str,
+    /// The picture.
+    pub picture: &'static str,
+    /// The mode of work.
+    pub mode: &'static str,
+    /// The stage.
+    pub stage: &'static str,
+    /// The rung of the fill ladder.
+    pub rung: &'static str,
+}
+
+/// Prints the columns' names.
+pub fn print_head() {
+    println!("# {}", env!("GALPIX_RUSTC"));
+    println!("target,layout,picture,mode,stage,rung,hundredths");
+}
+
+/// Prints a row: hundredths of an instruction a galpixel.
+pub fn print(row: &Row, ticks: u64, galpixels: u32) {
+    let Row { layout, picture, mode, stage, rung } = row;
+    let count = hundredths(ticks, galpixels);
+    println!("{},{layout},{picture},{mode},{stage},{rung},{count}", env!("GALPIX_TARGET"));
+}

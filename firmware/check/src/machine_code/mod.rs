@@ -1,0 +1,54 @@
+//! "Additions and shifts only" for a linked program: what its functions reach is read, instruction by instruction.
+//!
+//! The program must be linked with `--emit-relocs`, see [`image`]. Setting up a map may multiply; a frame must not. So
+//! what is read are the functions named, and everything that they reach.
+
+mod image;
+mod instructions;
+mod reach;
+
+use std::collections::HashSet;
+
+use crate::Findings;
+use image::Image;
+use reach::{Finding, judge};
+
+/// Reads an ELF file: the functions with these names, or those that begin with `proof_`, must be clean, and in each
+/// that begins with `planted_` a fault must be found.
+pub fn run(file: &str, names: &[&str]) -> Result<Findings, String> {
+    let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
+    let image = Image::read(&bytes).map_err(|error| format!("{file}: {error}"))?;
+    look(&image, names).map_err(|error| format!("{file}: {error}"))
+}
+
+fn look(image: &Image, names: &[&str]) -> Result<Findings, String> {
+    let mut findings = Findings::default();
+    let named = |name: &str| if names.is_empty() { name.starts_with("proof_") } else { names.contains(&name) };
+    let mut told = HashSet::new();
+    let (mut entries, mut functions, mut instructions) = (0, 0, 0);
+    for (index, function) in image.functions.iter().enumerate() {
+        let planted = function.short_name().starts_with("planted_");
+        if !planted && !named(function.short_name()) {
+            continue;
+        }
+        let verdict = judge(image, index)?;
+        if planted {
+            match verdict.findings.first() {
+                Some(Finding { what, .. }) => findings.report += &format!("{}: found: {what}\n", function.name),
+                None => findings.faults.push(format!("{}: the planted fault was not found", function.name)),
+            }
+            continue;
+        }
+        entries += 1;
+        functions += verdict.functions;
+        instructions += verdict.instructions;
+        // Several entries reach the same function: one way there is enough.
+        let new = verdict.findings.iter().filter(|finding| told.insert(finding.what.clone()));
+        findings.faults.extend(new.map(Finding::to_string));
+    }
+    if entries == 0 {
+        return Err("there is no such function; a program must be built with its symbols".to_owned());
+    }
+    findings.report += &format!("{entries} entries reach {functions} functions of {instructions} instructions\n");
+    Ok(findings)
+}

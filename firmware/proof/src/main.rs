@@ -1,0 +1,83 @@
+//! A proof by linking: no panic can be reached from anything that a firmware calls of `galpix-core`.
+//!
+//! ```sh
+//! cargo build --release -p galpix-proof --target thumbv6m-none-eabi
+//! ```
+//!
+//! Everything is called with inputs that the optimiser knows nothing of. What panics calls the panic handler, which
+//! calls a function that does not exist: where the linker finds a way there, it says so and fails. With the feature
+//! `bad` there is one, to see that it does.
+//!
+//! The program is never run. `galpix-check machine-code` reads it: in what the `proof_` functions reach there must be
+//! no product, quotient, float or trap, and in each `planted_` function there is one.
+
+#![no_std]
+#![no_main]
+
+mod link;
+mod passes;
+mod planted;
+
+use core::hint::black_box;
+
+use galpix_core::budget::{Bits, Demand};
+use galpix_core::frame::{Settings, Work};
+use galpix_core::galpixel::{Galpixel, Profile};
+use galpix_core::grid::Wings;
+use galpix_core::layout::{Full, Shaded, Velocity565, VelocityGray4};
+
+/// A panel of up to 512 pixels a side.
+const DEMAND: Demand = Demand { extent: 512, recog: 8, prop: 16 };
+
+/// With acceleration.
+struct Panel;
+
+impl Profile for Panel {
+    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
+}
+
+/// Without.
+struct PanelVelocity;
+
+impl Profile for PanelVelocity {
+    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
+}
+
+/// What comes from outside.
+struct Inputs<'m> {
+    size: [u32; 2],
+    wings: Wings,
+    place: [i32; 2],
+    frame: u32,
+    settings: Settings,
+    galpixel: Galpixel,
+    rows: &'m mut [u32],
+    window_rows: &'m mut [u32],
+    maps: [&'m mut [u32]; 2],
+    scratch: [&'m mut [u32]; 2],
+    line: &'m mut [u16],
+}
+
+/// Calls everything.
+fn run() {
+    let (mut rows, mut window_rows, mut front, mut back) = ([0; 8], [0; 8], [0; 512], [0; 512]);
+    let (mut winners, mut edges, mut line) = ([0; 64], [0; 2], [0; 8]);
+    let mut inputs = black_box(Inputs {
+        size: [8, 8],
+        wings: Wings::NONE,
+        place: [0; 2],
+        frame: 0,
+        settings: Settings { work: Work::Skipping, ..Settings::for_depth(16) },
+        galpixel: Galpixel::default(),
+        rows: &mut rows,
+        window_rows: &mut window_rows,
+        maps: [&mut front, &mut back],
+        scratch: [&mut winners, &mut edges],
+        line: &mut line,
+    });
+    passes::call_all::<VelocityGray4, PanelVelocity>(&mut inputs);
+    passes::call_all::<Velocity565, PanelVelocity>(&mut inputs);
+    passes::call_all::<Full, Panel>(&mut inputs);
+    passes::call_all::<Shaded, Panel>(&mut inputs);
+    planted::call_all(&mut inputs);
+}
