@@ -182,7 +182,8 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
 
     fn hole(&mut self, row: u32, x: u32, y: i32, round: u32, last: bool) {
         let cell = row + x;
-        let bullet = if self.rung.tells_surfaces() { self.bullet(x as i32, y, round) } else { None };
+        let tells = self.rung.tells_surfaces() && !self.winners.is_empty();
+        let bullet = if tells { self.bullet(x as i32, y, round) } else { None };
         let (words, winner) = match bullet {
             Some(words) => (words, FILLED + round),
             None if last => (self.unobscured(row, x), NOBODY),

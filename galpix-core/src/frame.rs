@@ -67,7 +67,9 @@ impl Settings {
     }
 }
 
-/// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices.
+/// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices. Lent to
+/// another rung, they leave out what it is for: without both no hole is a bullet hole, and without an edge map no edge is
+/// looked for or counted.
 #[derive(Debug, Default)]
 pub struct Scratch<'s> {
     /// Who won each cell: a word for each cell.
@@ -158,7 +160,7 @@ pub fn step<L: Layout, B: Budget<L>>(
     settings: &Settings,
     frame: u32,
 ) -> Tally {
-    let surfaces = settings.rung.tells_surfaces();
+    let surfaces = settings.rung.tells_surfaces() && !scratch.edges.is_empty();
     let edges = if surfaces { edge::mark(front, settings.edge_threshold, scratch.edges) } else { 0 };
     let (winners, rounding, rung, reach) = (&mut *scratch.winners, settings.rounding, settings.rung, settings.reach);
     let mut tally = match settings.work {

@@ -109,7 +109,7 @@ impl<'p, L: Layout, B: Budget<L>> Rolling<'p, L, B> {
     /// for.
     pub fn step(&mut self, settings: &Settings) -> Tally {
         let mut tally = Tally::default();
-        if settings.rung.tells_surfaces() {
+        if settings.rung.tells_surfaces() && !self.scratch.edges.is_empty() {
             tally.edges = edge::mark(&self.map, settings.edge_threshold, self.scratch.edges);
         }
         let thresholds = thresholds(self.map.record(), settings.rounding, self.frame);

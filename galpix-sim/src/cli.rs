@@ -7,6 +7,7 @@ mod error;
 mod plan;
 mod run;
 mod scenes;
+mod send;
 mod stability;
 mod vectors;
 
@@ -69,6 +70,8 @@ enum Command {
     Plan(plan::PlanArguments),
     /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
     Stability(stability::Stability),
+    /// Streams a scene or a capture as galpixels to a display controller
+    Send(send::Send),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
@@ -89,6 +92,7 @@ pub fn main() -> ExitCode {
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),
+        Command::Send(send) => send.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
     };

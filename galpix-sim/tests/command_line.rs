@@ -294,6 +294,18 @@ fn a_run_that_cannot_be_made_is_refused_with_a_remedy() {
         ("run still --out file/deeper", &["file/deeper", "--out"]),
         ("demo --out file", &["file", "--out"]),
         ("demo --prop 1", &["2 frames or more"]),
+        ("send", &["--to", "SOURCE"]),
+        ("send nowhere --to file:stream", &["`nowhere`", "galpix scenes"]),
+        ("send still --to tcp:nowhere", &["--to", "tcp:HOST:PORT", "file:PATH"]),
+        ("send still --to tcp:127.0.0.1:1", &["tcp:127.0.0.1:1", "cannot be reached", "listening"]),
+        ("send still --to unix:nowhere", &["unix:nowhere", "cannot be reached"]),
+        ("send still --to nowhere", &["nowhere", "serial device", "file:PATH"]),
+        ("send still --to file", &["file", "serial device", "file:PATH"]),
+        ("send still --to file:stream", &["file:stream", "--panel oled"]),
+        ("send still --to file:nowhere/stream --panel oled", &["nowhere/stream", "choose another path"]),
+        ("send still --to file:stream --panel oled --baud 9600", &["--baud", "leave it out"]),
+        ("send still --to file:stream --panel crt", &["--panel", "oled", "lcd"]),
+        ("send still --to file:stream --updates 0", &["--updates", "1..="]),
         ("walk", &["walk", "--help"]),
         ("budget --jason", &["--jason", "--help"]),
     ] {
@@ -487,4 +499,24 @@ fn a_plan_says_what_is_not_needed() {
     refused(folder.path(), &["plan", "ball", "--max-error", "0.00000001"], &["no budget certifies"]);
     refused(folder.path(), &["plan", "ball"], &["--max-error"]);
     refused(folder.path(), &["plan", "nowhere", "--max-error", "1"], &["nowhere", "galpix scenes"]);
+}
+
+#[test]
+fn send_keeps_a_stream_in_a_file() {
+    let folder = folder();
+    let marbles = marbles();
+    let marbles = marbles.to_string_lossy();
+    let more = ["send", &marbles, "--to", "file:stream", "--panel", "lcd", "--updates", "2"];
+    refused(folder.path(), &more, &["marbles", "one update", "--updates 2"]);
+    let report = json(folder.path(), &["send", &marbles, "--to", "file:stream", "--panel", "lcd", "--json"]);
+    assert_eq!((report["source"].as_str(), report["panel"].as_str()), (Some("marbles"), Some("lcd")));
+    assert_eq!((report["width"].as_u64(), report["height"].as_u64()), (Some(320), Some(240)));
+    assert_eq!(report["frames"].as_u64(), Some(18 * 240));
+    assert!(report["device"].is_null());
+    let length = std::fs::metadata(folder.path().join("stream")).unwrap().len();
+    assert_eq!(report["bytes"].as_u64(), Some(length));
+    let text = done(folder.path(), &["send", "drift", "--to", "file:stream", "--panel", "oled", "--updates", "2"]);
+    assert!(text.starts_with("drift to oled (128x64): 384 frames of galpixels"), "{text}");
+    assert!(text.contains("update 1, exact at frame 8: 8192 galpixels, 0 cells empty"), "{text}");
+    assert_eq!(entries(folder.path()), BTreeSet::from(["stream".to_owned()]));
 }

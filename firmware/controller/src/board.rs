@@ -22,6 +22,11 @@ pub trait Board {
     /// A clock; wraps.
     fn ticks(&self) -> u32;
 
+    /// Bytes of the stack that were ever used, and bytes that it has; 0 if the board does not know.
+    fn stack(&self) -> (u32, u32) {
+        (0, 0)
+    }
+
     /// Lets `draw` draw the whole picture, band by band from the top, each with its first row and its rows; then the panel
     /// shows it.
     fn show(&mut self, draw: impl FnMut(&mut Self::Band, u32, u32));

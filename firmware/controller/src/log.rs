@@ -34,8 +34,8 @@ pub fn started(panel: &Description, record: &Record, memory: &[(&'static str, us
     let _ = (panel, record, memory);
 }
 
-/// Once a second: what the last frame counted, how busy the processor was in it, and what came over the line so far.
-pub fn second(status: &Status, tally: &Tally, busy: u32, of: u32) {
+/// Once a second: what the last frame counted, how busy the processor was in the longest one, and what came over the line.
+pub fn second(status: &Status, tally: &Tally) {
     #[cfg(feature = "defmt")]
     {
         defmt::info!(
@@ -52,15 +52,15 @@ pub fn second(status: &Status, tally: &Tally, busy: u32, of: u32) {
         );
         defmt::info!(
             "busy {} of {} ticks, late {}, accepted {}, refused {}",
-            busy,
-            of,
+            status.busy,
+            status.ticks,
             status.late,
             status.accepted,
             status.rejected.total()
         );
     }
     #[cfg(not(feature = "defmt"))]
-    let _ = (status, tally, busy, of);
+    let _ = (status, tally);
 }
 
 /// A frame was not ready at its vsync.

@@ -36,6 +36,9 @@ pub const OLDEST: u32 = 32;
 /// Frames to the second.
 const SECOND: u32 = 60;
 
+/// Frames for which a controller in lockstep waits for its host.
+const PATIENCE: u32 = 120 * SECOND;
+
 /// A colour of the maps on this board.
 type ColourOf<'p, M> = <<M as Maps<'p>>::Layout as Layout>::Colour;
 
@@ -49,7 +52,6 @@ pub struct Session<'p, M, B> {
     line: Line,
     overlay: bool,
     tally: Tally,
-    busy: u32,
     lifetime: core::marker::PhantomData<&'p ()>,
 }
 
@@ -59,6 +61,8 @@ struct Line {
     status: Status,
     /// In lockstep: whether the next frame may be made.
     go: bool,
+    /// Frames until the next line of the log.
+    until_log: u32,
 }
 
 impl<'p, M, B> Session<'p, M, B>
@@ -74,12 +78,12 @@ where
             width: panel.width,
             height: panel.height,
             words: panel.words,
+            ticks: B::TICKS_PER_FRAME,
             ..Status::default()
         };
-        let line = Line { decoder: Decoder::new(), status, go: false };
+        let line = Line { decoder: Decoder::new(), status, go: false, until_log: SECOND };
         let (tally, lifetime) = (Tally::default(), core::marker::PhantomData);
-        let mut session =
-            Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, busy: 0, lifetime };
+        let mut session = Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, lifetime };
         session.choose(0);
         session
     }
@@ -101,17 +105,16 @@ where
 
     /// How the controller is.
     pub fn status(&self) -> Status {
-        Status { frame: self.maps.frame(), ..self.line.status }
+        let (stack_used, stack) = self.board.stack();
+        Status { frame: self.maps.frame(), stack_used, stack, ..self.line.status }
     }
 
-    /// Shows the map as it is, and goes on with a frame at each vsync. `every` sees the session after each of them; it is for
-    /// what the board wants to watch.
-    pub fn run(mut self, mut every: impl FnMut(&mut Self)) -> ! {
+    /// Shows the map as it is, and goes on with a frame at each vsync.
+    pub fn run(mut self) -> ! {
         self.board.vsync();
         self.present();
         loop {
             self.frame();
-            every(&mut self);
         }
     }
 
@@ -132,13 +135,11 @@ where
             log::late(self.maps.frame(), missed);
         }
         self.present();
-        self.busy = made.wrapping_sub(begin).wrapping_add(self.board.ticks().wrapping_sub(shown));
-        self.line.seconds(self.maps.frame(), &self.tally, self.busy, B::TICKS_PER_FRAME);
-    }
-
-    /// Ticks that the last frame took, without what it waited.
-    pub const fn busy(&self) -> u32 {
-        self.busy
+        if !self.line.status.lockstep {
+            let busy = made.wrapping_sub(begin).wrapping_add(self.board.ticks().wrapping_sub(shown));
+            self.line.status.busy = self.line.status.busy.max(busy);
+        }
+        self.line.second(self.maps.frame(), &self.tally);
     }
 
     /// Shows the map. In lockstep says so, and waits until the host lets it go on.
@@ -158,8 +159,17 @@ where
         if self.line.status.lockstep {
             self.line.go = false;
             self.say(&Frame::Shown { frame: self.maps.frame(), hash: self.hash() });
+            let (mut begin, mut frames) = (self.board.ticks(), 0);
             while self.line.status.lockstep && !self.line.go {
                 self.listen(1);
+                if self.board.ticks().wrapping_sub(begin) >= B::TICKS_PER_FRAME {
+                    begin = begin.wrapping_add(B::TICKS_PER_FRAME);
+                    frames += 1;
+                    // A host that has gone away does not stop the picture for ever.
+                    if frames == PATIENCE {
+                        self.line.status.lockstep = false;
+                    }
+                }
             }
             // The time that the host took is nobody's lateness.
             self.board.vsync();
@@ -205,7 +215,10 @@ where
     fn obey(&mut self, asked: Asked) -> Result<(), Rejected> {
         match asked {
             Asked::Galpixels => self.line.status.accepted = self.line.status.accepted.wrapping_add(1),
-            Asked::Status => self.say(&Frame::Status(self.status())),
+            Asked::Status => {
+                self.say(&Frame::Status(self.status()));
+                self.line.status.busy = 0;
+            }
             Asked::Scene(number) if self.choose(number) => {}
             Asked::Scene(_) => return Err(Rejected::UnknownKind),
             Asked::Lockstep(on) => self.line.status.lockstep = on,
@@ -275,10 +288,12 @@ fn take<'p, M: Maps<'p>>(
 
 impl Line {
     /// Logs once a second.
-    fn seconds(&mut self, frame: u32, tally: &Tally, busy: u32, of: u32) {
+    fn second(&mut self, frame: u32, tally: &Tally) {
         self.status.frame = frame;
-        if frame % SECOND == 0 {
-            log::second(&self.status, tally, busy, of);
+        self.until_log = self.until_log.saturating_sub(1);
+        if self.until_log == 0 {
+            self.until_log = SECOND;
+            log::second(&self.status, tally);
         }
     }
 }

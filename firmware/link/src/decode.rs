@@ -29,8 +29,8 @@ impl Decoder {
         Self { cobs: DecoderState::Idle, frame: [0; MAX_PAYLOAD + CHECKSUM], length: 0, too_long: false }
     }
 
-    /// Takes the next byte off the line. At the 0 that ends a frame there is an answer: the frame, or why it is refused.
-    /// A 0 right after another one ends nothing.
+    /// Takes the next byte off the line. At the 0 that ends a frame there is an answer: the frame, or why it is
+    /// refused. A 0 right after another one ends nothing.
     ///
     /// *Errors:* the five causes that can be told without a map.
     pub fn push(&mut self, byte: u8) -> Option<Result<Frame<'_>, Rejected>> {

@@ -85,8 +85,8 @@ pub struct Galpixels<'a> {
     pub y: u16,
     /// Column of the first one.
     pub x: u16,
-    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest first.
-    /// 4 to [`MAX_WORD_BYTES`] bytes.
+    /// All words of the first galpixel, then all of its right neighbour, and so on; each word 4 bytes, the lowest
+    /// first. 4 to [`MAX_WORD_BYTES`] bytes.
     pub words: &'a [u8],
 }
 
@@ -126,6 +126,14 @@ pub struct Status {
     pub rejected: Rejections,
     /// Frames that were not ready at their vsync.
     pub late: u32,
+    /// Ticks that the longest frame took since the last status, and ticks from one vsync to the next.
+    pub busy: u32,
+    /// See [`Self::busy`].
+    pub ticks: u32,
+    /// Bytes of the stack that were ever used, and bytes that it has; 0 where the board does not know.
+    pub stack_used: u32,
+    /// See [`Self::stack_used`].
+    pub stack: u32,
 }
 
 impl<'a> Galpixels<'a> {
@@ -146,18 +154,20 @@ impl<'a> Galpixels<'a> {
         if self.y >= panel.height || usize::from(self.x) + count > usize::from(panel.width) {
             return Err(Rejected::Outside);
         }
-        let y = self.y;
-        Ok((self.x..panel.width).zip(self.words.chunks_exact(bytes)).map(move |(x, galpixel)| {
+        let Self { x, y, words: all, .. } = *self;
+        // By counting, not by chunks: these would divide once more.
+        Ok((0..count as u16).map(move |index| {
+            let galpixel = all.get(usize::from(index) * bytes..).unwrap_or_default();
             let mut words = [0; MAX_WORDS];
-            for (word, bytes) in words.iter_mut().zip(galpixel.as_chunks().0) {
+            for (word, bytes) in words.iter_mut().take(bytes / 4).zip(galpixel.as_chunks().0) {
                 *word = u32::from_le_bytes(*bytes);
             }
-            Stored { x, y, words }
+            Stored { x: x + index, y, words }
         }))
     }
 
-    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a huge
-    /// age.
+    /// Frames since they were exact, where the frame counter is `now`. A stamp that lies ahead of the counter gives a
+    /// huge age.
     #[must_use]
     pub const fn age(&self, now: u32) -> u32 {
         now.wrapping_sub(self.stamp)
@@ -167,8 +177,8 @@ impl<'a> Galpixels<'a> {
 impl<'a> Frame<'a> {
     /// Writes the frame as it goes over the line, its 0 included, and returns the bytes written.
     ///
-    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many ([`Rejected::TooLong`]);
-    /// what the receiver would say too.
+    /// *Errors:* galpixels that are none, no whole words ([`Rejected::WrongLength`]) or too many
+    /// ([`Rejected::TooLong`]); what the receiver would say too.
     pub fn encode<'b>(&self, buffer: &'b mut [u8; MAX_ENCODED]) -> Result<&'b [u8], Rejected> {
         let mut payload = [0; MAX_PAYLOAD + CHECKSUM];
         let mut writer = Writer::new(&mut payload);
@@ -231,7 +241,9 @@ impl<'a> Frame<'a> {
                 for count in status.rejected.counts() {
                     to.u32(count);
                 }
-                to.u32(status.late);
+                for number in [status.late, status.busy, status.ticks, status.stack_used, status.stack] {
+                    to.u32(number);
+                }
             }
             Self::Shown { frame, hash } => {
                 to.u8(kind::SHOWN);
@@ -276,6 +288,10 @@ impl<'a> Frame<'a> {
                     Rejections::from_counts(counts)
                 },
                 late: from.u32()?,
+                busy: from.u32()?,
+                ticks: from.u32()?,
+                stack_used: from.u32()?,
+                stack: from.u32()?,
             }),
             kind::SHOWN => Self::Shown { frame: from.u32()?, hash: from.u32()? },
             _ => return Err(Rejected::UnknownKind),

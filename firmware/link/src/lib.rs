@@ -1,8 +1,8 @@
 //! What a display controller of galpixmaps and its host say to each other over a serial line.
 //!
-//! A *frame* on the line is `COBS(payload || CRC-32 of the payload, little-endian)` and a 0 byte. No other 0 is ever on the
-//! line, so after any corruption a receiver is in step again at the next 0; a bad frame costs itself, and the next one if
-//! the 0 between them was lost. `docs/link.md` is the normative text.
+//! A *frame* on the line is `COBS(payload || CRC-32 of the payload, little-endian)` and a 0 byte. No other 0 is ever on
+//! the line, so after any corruption a receiver is in step again at the next 0; a bad frame costs itself, and the next
+//! one if the 0 between them was lost. `docs/link.md` is the normative text.
 //!
 //! - [`frame`]: the kinds of frames, and their payloads
 //! - [`decode`]: bytes in, frames or the causes of their refusal out

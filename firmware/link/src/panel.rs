@@ -3,6 +3,7 @@
 use galpix_core::budget::{Bits, Component, Demand};
 use galpix_core::colour::{Colour, Gray4, Rgb565};
 use galpix_core::error::BudgetError;
+use galpix_core::frame::Settings;
 use galpix_core::galpixel::{Fixed, Profile, Static};
 use galpix_core::layout::{Lanes, Layout};
 use galpix_core::record::{Field, Record, Scale};
@@ -10,7 +11,8 @@ use galpix_core::record::{Field, Record, Scale};
 use crate::CRC;
 use crate::frame::MAX_WORD_BYTES;
 
-/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's galpixels.
+/// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's
+/// galpixels.
 pub const VERSION: u8 = 1;
 
 /// A display, as a type. `Static<Self>` is the budget of its maps.
@@ -28,6 +30,11 @@ pub trait Panel: Profile + Sized {
     const RECORD: Record = <Static<Self> as Fixed<Self::Layout>>::RECORD;
     /// Cells of its map, which has no wings.
     const CELLS: usize = Self::WIDTH as usize * Self::HEIGHT as usize;
+    /// With what its frames are made. With few depths the surface next to another may be apart by a single step.
+    const SETTINGS: Settings = Settings::for_depth(Self::RECORD.depth().bits as u32);
+    /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet hole: all
+    /// continue what is beside them.
+    const TELLS_SURFACES: bool;
     /// Words of memory for one map.
     const MAP_WORDS: usize = Self::CELLS * Self::RECORD.words();
     /// The display as a value.
@@ -120,10 +127,10 @@ impl Hashed {
     }
 }
 
-/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and height
-/// (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the seven
-/// numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of the
-/// colour its lowest bit and its bits.
+/// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and
+/// height (two bytes each, the low one first); words; bits, word, shift and spill of each field in canonical order; the
+/// seven numbers of the scales of x, y and depth in their order; fraction bits of the luminosity; for each channel of
+/// the colour its lowest bit and its bits.
 ///
 /// For constants: it is computed while compiling.
 #[must_use]
@@ -204,6 +211,8 @@ impl Panel for Oled {
     const WIDTH: u16 = 128;
     const HEIGHT: u16 = 64;
     type Layout = OledLayout;
+    /// No: that would take 4.5 KiB, and a quarter of the work of a frame.
+    const TELLS_SURFACES: bool = false;
 }
 
 /// What the galpixels of [`Lcd`] carry: x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two
@@ -231,6 +240,7 @@ impl Panel for Lcd {
     const WIDTH: u16 = 320;
     const HEIGHT: u16 = 240;
     type Layout = LcdLayout;
+    const TELLS_SURFACES: bool = true;
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);

@@ -2,8 +2,9 @@
 
 use crate::CRC;
 
-/// CRC-32/ISO-HDLC over the colour words of a picture: row by row from the top, in each row from left to right, each word
-/// as 16 bits with the low byte first. Gray levels of 4 bits thus take two bytes as well, the second of which is 0.
+/// CRC-32/ISO-HDLC over the colour words of a picture: row by row from the top, in each row from left to right, each
+/// word as 16 bits with the low byte first. Gray levels of 4 bits thus take two bytes as well, the second of which is
+/// 0.
 #[derive(Clone)]
 pub struct PictureHash(crc::Digest<'static, u32>);
 

@@ -61,3 +61,10 @@ crate::registers! {
     /// Interrupt controller: processors for interrupts 76 to 79.
     GICD_ITARGETSR19 = 0x1e00_184c;
 }
+
+/// Lets interrupts through to the processor: only handlers that are safe at any time may stand behind them.
+#[cfg(feature = "vexpress")]
+pub fn enable_interrupts() {
+    // SAFETY: the handlers of the firmware use atomics and critical sections only; it is called once, outside of any.
+    unsafe { aarch32_cpu::interrupt::enable() }
+}

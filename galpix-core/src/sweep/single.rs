@@ -1,6 +1,6 @@
 //! The sweep for processors without vector registers, where a buffer between the two stages costs more than it saves.
 //!
-//! Neighbours mostly move alike. A **stretch** is a run of fully-fledged galpixels with one displacement, whose fields do not
+//! Neighbours mostly move alike. A **stretch** is a run of galpixels of one class with one displacement, whose fields do not
 //! stray and whose new cells are still empty. It is taken straight from the old map into the new one, component by component:
 //! a loop over the cells for x and y, and where these are in words of their own, a second one for class and depth, so that
 //! what a loop needs stays in registers. A loop that meets a galpixel of another kind ends the stretch there. All else
@@ -72,7 +72,8 @@ pub(crate) fn sweep_row<L: Layout, B: Budget<L>>(
             continue;
         }
         let mut taken = 0;
-        if class == Class::Galpixel
+        // What was just unobscured becomes debris in this step: it is no common case.
+        if class != Class::JustUnobscured
             && let Some(stretch) = stretch(front, source, x, y, thresholds, back)
         {
             taken = take_stretch(front, &stretch, thresholds, back, winners).unwrap_or(0);
@@ -139,7 +140,7 @@ const DEPTH: usize = 2;
 const ALL: usize = 3;
 
 /// Takes the words of a part of what moves from where a stretch is to where it goes, a step further: of at most `count`
-/// galpixels, up to the first that goes another way, is not fully-fledged, or goes to a cell that is taken. Returns how many.
+/// galpixels, up to the first that goes another way, is of another class, or goes to a cell that is taken. Returns how many.
 #[inline(never)]
 fn pass<L: Layout, B: Budget<L>, const PART: usize>(
     front: &Galpixmap<'_, L, B>,
@@ -172,6 +173,7 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
         }
     }
     let (thresholds, moved) = (*thresholds, stretch.moved);
+    let alike = if looks { sources[class_word].first().copied().unwrap_or_default() } else { 0 };
     let mut lane = 0;
     while lane < count {
         let mut words = [0; MAX_WORDS];
@@ -181,8 +183,8 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
             }
         });
         if looks {
-            // Class 0 is a galpixel, and both bits of an empty cell's are set.
-            let open = targets[class_word][lane] & !sources[class_word][lane];
+            // The class of the first one, and a cell that is empty, with both bits of its class set.
+            let open = targets[class_word][lane] & !(sources[class_word][lane] ^ alike);
             if class.unsigned(open, open) != Class::Empty as u32 {
                 break;
             }
@@ -275,6 +277,7 @@ fn take_stretch<L: Layout, B: Budget<L>>(
 
 /// Takes one galpixel or piece of debris, whatever it is and wherever it goes.
 #[inline(never)]
+#[allow(clippy::too_many_arguments)]
 fn take_one<L: Layout, B: Budget<L>>(
     front: &Galpixmap<'_, L, B>,
     source: u32,

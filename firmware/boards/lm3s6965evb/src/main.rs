@@ -16,7 +16,7 @@ mod uart;
 
 use galpix_controller::board::Board;
 use galpix_controller::session::{Session, log_start};
-use galpix_core::frame::{Scratch, Settings};
+use galpix_core::frame::Scratch;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
 use galpix_core::rolling::Rolling;
@@ -54,6 +54,11 @@ impl Board for Evaluation {
         clock::ticks()
     }
 
+    fn stack(&self) -> (u32, u32) {
+        let (used, size) = galpix_registers::lm3s6965::stack();
+        (used as u32, size as u32)
+    }
+
     fn show(&mut self, mut draw: impl FnMut(&mut Band, u32, u32)) {
         self.oled.begin();
         let mut top = 0;
@@ -86,31 +91,22 @@ fn main() -> ! {
     defmt::info!("memory: {=usize} bytes are left for the stack", stack);
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
-    let Ok(rolling) = rolling(lent.map, lent.window, lent.scratch, lent.starts, lent.turns) else { end::fail() };
-    let mut settings = Settings::for_depth(u32::from(Display::RECORD.depth().bits));
-    // With 16 depths a surface's neighbour is apart by one step already.
-    settings.edge_threshold = 1;
-    let session = Session::new(board, rolling, Display::DESCRIPTION, settings);
-    let mut deepest = 0;
-    session.run(|session| {
-        let (used, _) = galpix_registers::lm3s6965::stack();
-        // Rarely: the scan itself takes time.
-        if session.status().frame & 63 == 0 && used > deepest {
-            deepest = used;
-            defmt::info!("stack: {=usize} bytes used so far", used);
-        }
-    })
+    let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
+    Session::new(board, rolling, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
 /// The map and its window over the memory of the program.
 fn rolling(
     map: &'static mut [u32],
     window: &'static mut [u32],
-    scratch: Scratch<'static>,
     starts: &'static mut [u32],
     turns: &'static mut [u32],
 ) -> Result<Rolling<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
     let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
     let rolls = Grid::window(&grid, memory::WINDOW_ROWS as u32, turns)?;
-    Rolling::new(Galpixmap::new(grid, Stored::new(), map)?, Galpixmap::new(rolls, Stored::new(), window)?, scratch)
+    Rolling::new(
+        Galpixmap::new(grid, Stored::new(), map)?,
+        Galpixmap::new(rolls, Stored::new(), window)?,
+        Scratch::default(),
+    )
 }

@@ -1,6 +1,5 @@
 //! Where the 64 KiB go: every large piece by name, summed up by the compiler.
 
-use galpix_core::frame::Scratch;
 use galpix_core::rolling;
 use galpix_link::panel::Panel;
 use static_cell::ConstStaticCell;
@@ -17,22 +16,18 @@ pub const WINDOW_ROWS: usize = rolling::rows(&Display::RECORD, 1) as usize;
 
 const WINDOW_CELLS: usize = WINDOW_ROWS * WIDTH;
 const WINDOW_WORDS: usize = WINDOW_CELLS * Display::RECORD.words();
-const EDGE_WORDS: usize = (WIDTH * HEIGHT).div_ceil(32);
+const _: () = assert!(!Display::TELLS_SURFACES, "lend the window a winner map and the map an edge map");
 
 static MAP: ConstStaticCell<[u32; Display::MAP_WORDS]> = ConstStaticCell::new([0; Display::MAP_WORDS]);
 static WINDOW: ConstStaticCell<[u32; WINDOW_WORDS]> = ConstStaticCell::new([0; WINDOW_WORDS]);
-static WINNERS: ConstStaticCell<[u32; WINDOW_CELLS]> = ConstStaticCell::new([0; WINDOW_CELLS]);
-static EDGES: ConstStaticCell<[u32; EDGE_WORDS]> = ConstStaticCell::new([0; EDGE_WORDS]);
 static STARTS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]);
 static TURNS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]);
 static BAND: ConstStaticCell<Band> = ConstStaticCell::new(Band::new());
 
 /// What each piece takes, in bytes.
-pub const SHARES: [(&str, usize); 6] = [
+pub const SHARES: [(&str, usize); 4] = [
     ("for the map", Display::MAP_WORDS * 4),
     ("for the window of rows", WINDOW_WORDS * 4),
-    ("for the winners in the window", WINDOW_CELLS * 4),
-    ("for the edge map", EDGE_WORDS * 4),
     ("for the two tables of row starts", HEIGHT * 8),
     ("for a band of the picture and the line", size_of::<Band>() + uart::QUEUE),
 ];
@@ -56,7 +51,6 @@ const _: () = assert!(SUM + STACK <= 64 * 1024, "the maps and a stack of 8 KiB d
 pub struct Lent {
     pub map: &'static mut [u32],
     pub window: &'static mut [u32],
-    pub scratch: Scratch<'static>,
     pub starts: &'static mut [u32],
     pub turns: &'static mut [u32],
     pub band: &'static mut Band,
@@ -65,13 +59,6 @@ pub struct Lent {
 impl Lent {
     /// Takes it. The second time there is none left, and the program ends.
     pub fn take() -> Self {
-        Self {
-            map: MAP.take(),
-            window: WINDOW.take(),
-            scratch: Scratch { winners: WINNERS.take(), edges: EDGES.take() },
-            starts: STARTS.take(),
-            turns: TURNS.take(),
-            band: BAND.take(),
-        }
+        Self { map: MAP.take(), window: WINDOW.take(), starts: STARTS.take(), turns: TURNS.take(), band: BAND.take() }
     }
 }

@@ -87,7 +87,7 @@ impl Oled {
     /// Sends the next band.
     pub fn send(&mut self, band: &Band) {
         for &bytes in band.rows.as_flattened().as_chunks().0 {
-            ssi::send_four(bytes);
+            ssi::send_eight(bytes);
         }
     }
 }

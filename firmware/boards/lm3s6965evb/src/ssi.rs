@@ -4,6 +4,7 @@ use galpix_registers::lm3s6965::{
     GPIOA_AFSEL, GPIOA_DEN, RCGC1, RCGC2, SSI0_CPSR, SSI0_CR0, SSI0_CR1, SSI0_DR, SSI0_SR,
 };
 
+const IS_EMPTY: u32 = 1 << 0;
 const CAN_SEND: u32 = 1 << 1;
 const HAS_RECEIVED: u32 = 1 << 2;
 const BUSY: u32 = 1 << 4;
@@ -32,14 +33,17 @@ pub fn send(byte: u8) {
     drain();
 }
 
-/// Sends four bytes, each once there is room.
+/// Sends eight bytes, once all before are out: as many as the hardware holds.
 #[inline(always)]
-pub fn send_four(bytes: [u8; 4]) {
+pub fn send_eight(bytes: [u8; 8]) {
+    SSI0_SR.wait_for(IS_EMPTY);
     for byte in bytes {
-        SSI0_SR.wait_for(CAN_SEND);
         SSI0_DR.write(u32::from(byte));
     }
-    drain();
+    // What came in meanwhile; reading when there is nothing does no harm.
+    for _ in bytes {
+        let _ = SSI0_DR.read();
+    }
 }
 
 /// Waits until everything is out.

@@ -1,6 +1,6 @@
 //! The line to the host: 115 200 baud, received by interrupt into a queue.
 //!
-//! When the queue is full the interrupt is held back until there is room again: the bytes stay in the hardware, which
+//! When the queue is full the interrupt is held back until it is empty: the bytes stay in the hardware, which
 //! stops the sender where the line has flow control.
 
 use core::cell::RefCell;
@@ -40,26 +40,33 @@ pub fn start() {
 fn UART0() {
     critical_section::with(|section| {
         let mut queued = QUEUED.borrow_ref_mut(section);
-        while UART0_FR.read() & RECEIVE_EMPTY == 0 {
-            if queued.is_full() {
-                UART0_IM.write(0);
-                return;
-            }
-            let _ = queued.push_back(UART0_DR.read() as u8);
-        }
+        // First of all: what comes while the bytes are taken out asks again.
         UART0_ICR.write(RECEIVED);
+        fill(&mut queued);
     });
+}
+
+/// Takes what the hardware holds, as far as there is room.
+fn fill(queued: &mut Deque<u8, QUEUE>) {
+    while UART0_FR.read() & RECEIVE_EMPTY == 0 {
+        if queued.is_full() {
+            UART0_IM.write(0);
+            return;
+        }
+        let _ = queued.push_back(UART0_DR.read() as u8);
+    }
 }
 
 /// The next byte that has come.
 pub fn receive() -> Option<u8> {
     critical_section::with(|section| {
         let mut queued = QUEUED.borrow_ref_mut(section);
-        let byte = queued.pop_front();
-        if queued.len() == QUEUE / 2 {
+        if queued.is_empty() {
+            // Also what came while the interrupt was held back.
+            fill(&mut queued);
             UART0_IM.write(RECEIVED);
         }
-        byte
+        queued.pop_front()
     })
 }
 

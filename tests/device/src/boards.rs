@@ -1,0 +1,90 @@
+//! The boards, and how their screens are read.
+
+use std::path::{Path, PathBuf};
+
+use galpix_link::panel::{Description, Lcd, Oled, Panel};
+use galpix_sim::picture::Picture;
+
+use crate::failure::Failure;
+
+/// A board in the emulator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Board {
+    /// The Cortex-M3 with the gray OLED.
+    Lm3s6965evb,
+    /// The board with the PL111 and a colour panel.
+    VexpressA9,
+}
+
+impl Board {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Lm3s6965evb, Self::VexpressA9];
+
+    /// Its name: the emulator's, and that of its program.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Lm3s6965evb => "lm3s6965evb",
+            Self::VexpressA9 => "vexpress-a9",
+        }
+    }
+
+    /// Its panel.
+    pub const fn panel(self) -> Description {
+        match self {
+            Self::Lm3s6965evb => Oled::DESCRIPTION,
+            Self::VexpressA9 => Lcd::DESCRIPTION,
+        }
+    }
+
+    /// Its program.
+    pub fn program(self, firmware: &Path) -> PathBuf {
+        let target = match self {
+            Self::Lm3s6965evb => "thumbv7m-none-eabi",
+            Self::VexpressA9 => "armv7a-none-eabi",
+        };
+        firmware.join("target").join(target).join("release").join(self.name())
+    }
+
+    /// The panel's pixels on the emulated screen, with 8 bits a channel as [`Self::shown`] makes them.
+    ///
+    /// The OLED is drawn four times as large; each pixel's block must be of one colour. The LCD's pixels are as they are.
+    pub fn pixels(self, screen: &Picture) -> Result<Picture, Failure> {
+        let scale = match self {
+            Self::Lm3s6965evb => 4,
+            Self::VexpressA9 => 1,
+        };
+        let (width, height) = (usize::from(self.panel().width), usize::from(self.panel().height));
+        if (screen.width, screen.height) != (width * scale, height * scale) {
+            return Err(Failure::new(format!(
+                "{}: the screen has {} x {} pixels and not {} x {}",
+                self.name(),
+                screen.width,
+                screen.height,
+                width * scale,
+                height * scale
+            )));
+        }
+        let mut pixels = Vec::with_capacity(width * height);
+        for y in 0..height {
+            for x in 0..width {
+                let first = screen.at(x * scale, y * scale);
+                let last = screen.at(x * scale + scale - 1, y * scale + scale - 1);
+                if first != last {
+                    return Err(Failure::new(format!("{}: a pixel of the screen has two colours", self.name())));
+                }
+                pixels.push(first);
+            }
+        }
+        Ok(Picture { width, height, pixels })
+    }
+
+    /// How the emulator shows a colour word: gray levels times 17, and the 5 or 6 bits of a channel at its top.
+    pub fn shown(self, colour: u32) -> [u8; 3] {
+        match self {
+            Self::Lm3s6965evb => [(colour * 17) as u8; 3],
+            Self::VexpressA9 => {
+                [(colour >> 11 << 3) as u8, ((colour >> 5 & 63) << 2) as u8, ((colour & 31) << 3) as u8]
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! A board's program in QEMU: its screen, its serial line, its clock.
+
+use std::io::{BufRead, BufReader, Write};
+use std::os::unix::net::{UnixListener, UnixStream};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use galpix_sim::picture::Picture;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::boards::Board;
+use crate::failure::Failure;
+use crate::line::Line;
+
+/// How long the emulator may take to do something.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A running board.
+pub struct Emulator {
+    board: Board,
+    child: Child,
+    folder: TempDir,
+    commands: BufReader<UnixStream>,
+    /// The serial line.
+    pub line: Line,
+}
+
+/// How fast its processor is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// As fast as the host can.
+    Free,
+    /// An instruction takes 2 to this power nanoseconds, exactly.
+    Shift(u32),
+}
+
+impl Emulator {
+    /// Starts the program of a board.
+    ///
+    /// *Errors:* no program, no emulator, or one that does not answer.
+    pub fn start(board: Board, firmware: &Path, pace: Pace) -> Result<Self, Failure> {
+        let program = board.program(firmware);
+        if !program.is_file() {
+            return Err(Failure::new(format!(
+                "{} is missing: build the firmware first, with `firmware/test.sh build`",
+                program.display()
+            )));
+        }
+        let folder = tempfile::tempdir()?;
+        let (monitor, serial) = (folder.path().join("qmp"), folder.path().join("serial"));
+        let listener = UnixListener::bind(&monitor)?;
+        let serial_listener = UnixListener::bind(&serial)?;
+        let mut command = Command::new("qemu-system-arm");
+        command
+            .args(["-M", board.name(), "-display", "none", "-monitor", "none"])
+            .args(["-semihosting-config", "enable=on,target=native"])
+            .args(["-audiodev", "none,id=snd"])
+            .arg("-qmp")
+            .arg(format!("unix:{}", monitor.display()))
+            .arg("-chardev")
+            .arg(format!("socket,id=line,path={}", serial.display()))
+            .args(["-serial", "chardev:line"])
+            .arg("-kernel")
+            .arg(&program)
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        if let Pace::Shift(shift) = pace {
+            command.arg("-icount").arg(format!("shift={shift},sleep=off"));
+        }
+        let child = command.spawn().map_err(|error| {
+            Failure::new(format!("qemu-system-arm cannot be started ({error}): install qemu-system-arm"))
+        })?;
+        let mut child = Some(child);
+        let mut accept = |listener: UnixListener| -> Result<UnixStream, Failure> {
+            listener.set_nonblocking(true)?;
+            let begin = Instant::now();
+            loop {
+                match listener.accept() {
+                    Ok((stream, _)) => {
+                        stream.set_nonblocking(false)?;
+                        return Ok(stream);
+                    }
+                    Err(_) if begin.elapsed() < PATIENCE => {
+                        if let Some(Ok(Some(status))) = child.as_mut().map(Child::try_wait) {
+                            return Err(Failure::new(format!(
+                                "{}: the emulator ended at once, {status}",
+                                board.name()
+                            )));
+                        }
+                        std::thread::sleep(Duration::from_millis(5));
+                    }
+                    Err(error) => return Err(error.into()),
+                }
+            }
+        };
+        let serial = accept(serial_listener);
+        let commands = serial.and_then(|serial| Ok((serial, accept(listener)?)));
+        let mut child = child.take().ok_or_else(|| Failure::new("the emulator is gone"))?;
+        let (serial, commands) = match commands {
+            Ok(both) => both,
+            Err(failure) => {
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(failure);
+            }
+        };
+        let mut emulator =
+            Self { board, child, folder, commands: BufReader::new(commands), line: Line::new(serial, board) };
+        emulator.read_line()?;
+        emulator.command(&json!({ "execute": "qmp_capabilities" }))?;
+        emulator.line.greet()?;
+        Ok(emulator)
+    }
+
+    fn read_line(&mut self) -> Result<Value, Failure> {
+        let mut line = String::new();
+        if self.commands.read_line(&mut line)? == 0 {
+            return Err(Failure::new(format!("{}: the emulator has ended", self.board.name())));
+        }
+        serde_json::from_str(&line)
+            .map_err(|error| Failure::new(format!("the emulator says what is no JSON ({error}): {line}")))
+    }
+
+    fn command(&mut self, command: &Value) -> Result<(), Failure> {
+        writeln!(self.commands.get_mut(), "{command}")?;
+        loop {
+            let answer = self.read_line()?;
+            if answer.get("return").is_some() {
+                return Ok(());
+            }
+            if let Some(error) = answer.get("error") {
+                return Err(Failure::new(format!("the emulator refuses {command}: {error}")));
+            }
+        }
+    }
+
+    /// What its panel shows.
+    pub fn screen(&mut self) -> Result<Picture, Failure> {
+        let file = self.folder.path().join("screen.png");
+        self.command(&json!({
+            "execute": "screendump",
+            "arguments": { "filename": file.display().to_string(), "format": "png" }
+        }))?;
+        let image = image::open(&file)
+            .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?
+            .to_rgb8();
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let screen = Picture { width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() };
+        self.board.pixels(&screen)
+    }
+
+    /// Whether the program still runs.
+    pub fn runs(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(None))
+    }
+}
+
+impl Drop for Emulator {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

@@ -1,0 +1,170 @@
+//! What a panel must show, made on the host: two maps, a budget chosen at run time, vector code, another processor.
+
+use std::convert::Infallible;
+
+use embedded_graphics::Pixel;
+use embedded_graphics::draw_target::DrawTarget;
+use embedded_graphics::geometry::{OriginDimensions, Size};
+use embedded_graphics::prelude::{IntoStorage, PixelColor};
+use galpix_controller::overlay::Overlay;
+use galpix_controller::renderer::Renderer;
+use galpix_controller::scene;
+use galpix_core::colour::Colour;
+use galpix_core::edge;
+use galpix_core::frame::{Controller, Scratch};
+use galpix_core::galpixel::Chosen;
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::graft::graft;
+use galpix_core::grid::{Grid, Wings};
+use galpix_core::layout::Layout;
+use galpix_core::scan_out::{PanelColour, row};
+use galpix_core::tally::Tally;
+use galpix_link::panel::Panel;
+use galpix_link::picture::PictureHash;
+use galpix_sim::picture::Picture;
+
+use crate::boards::Board;
+use crate::failure::Failure;
+
+/// A frame that a panel must show.
+pub struct Expected {
+    /// The frame counter.
+    pub frame: u32,
+    /// The hash of the galpixmap's colours.
+    pub hash: u32,
+    /// The picture with the overlay, as the emulator shows it.
+    pub picture: Picture,
+}
+
+/// What a panel shows.
+#[derive(Clone, Copy, Debug)]
+pub enum Shows<'s> {
+    /// A built-in scene, by its number.
+    Scene(u8),
+    /// An update that a host sends: all words of each galpixel, row by row.
+    Sent(&'s [u32]),
+}
+
+/// The `frames` frames after frame `first`, in which the board was told what to show.
+pub fn frames(
+    board: Board,
+    shows: Shows<'_>,
+    first: u32,
+    frames: u32,
+    overlay: bool,
+) -> Result<Vec<Expected>, Failure> {
+    match board {
+        Board::Lm3s6965evb => of::<galpix_link::panel::Oled>(board, shows, first, frames, overlay),
+        Board::VexpressA9 => of::<galpix_link::panel::Lcd>(board, shows, first, frames, overlay),
+    }
+}
+
+fn of<P: Panel>(board: Board, shows: Shows<'_>, first: u32, count: u32, overlay: bool) -> Result<Vec<Expected>, Failure>
+where
+    P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
+{
+    let failed = |error: &dyn std::fmt::Display| Failure::new(format!("the host's map cannot be set up: {error}"));
+    let budget = Chosen::<P::Layout>::new(P::BITS).map_err(|error| failed(&error))?;
+    let mut starts = vec![0; usize::from(P::HEIGHT)];
+    let grid = Grid::new(u32::from(P::WIDTH), u32::from(P::HEIGHT), Wings::NONE, &mut starts)
+        .map_err(|error| failed(&error))?;
+    let words = Galpixmap::<P::Layout, _>::words(&grid, budget);
+    let (mut front, mut back) = (vec![0; words], vec![0; words]);
+    let told = |words: usize| vec![0; if P::TELLS_SURFACES { words } else { 0 }];
+    let (mut winners, mut edges) = (told(grid.cells() as usize), told(edge::words(&grid)));
+    let mut controller = Controller::new(
+        Galpixmap::<P::Layout, _>::new(grid, budget, &mut front).map_err(|error| failed(&error))?,
+        Galpixmap::new(grid, budget, &mut back).map_err(|error| failed(&error))?,
+        Scratch { winners: &mut winners, edges: &mut edges },
+    )
+    .map_err(|error| failed(&error))?;
+    controller.set_frame(first);
+
+    let renderer = match shows {
+        Shows::Scene(number) => {
+            let scene = scene::ALL
+                .get(usize::from(number))
+                .ok_or_else(|| Failure::new(format!("there is no built-in scene {number}")))?;
+            let renderer = Renderer::new(scene, first);
+            renderer.begin(controller.front_mut());
+            Some(renderer)
+        }
+        Shows::Sent(words) => {
+            let galpixels = words.chunks_exact(P::RECORD.words());
+            for (cell, galpixel) in (0..).zip(galpixels) {
+                let place = (cell % i32::from(P::WIDTH), cell / i32::from(P::WIDTH));
+                graft(controller.front_mut(), place, galpixel, P::SETTINGS.rounding, first, first);
+            }
+            None
+        }
+    };
+    let mut made = Vec::new();
+    for _ in 0..count {
+        if let Some(renderer) = renderer {
+            let now = controller.frame();
+            renderer.next(controller.front_mut(), now);
+        }
+        let tally = controller.step(&P::SETTINGS);
+        made.push(expected::<P>(board, &controller, &tally, overlay));
+    }
+    Ok(made)
+}
+
+fn expected<P: Panel>(
+    board: Board,
+    controller: &Controller<'_, P::Layout, Chosen<P::Layout>>,
+    tally: &Tally,
+    overlay: bool,
+) -> Expected
+where
+    P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
+{
+    type ColourOf<P> = <<P as Panel>::Layout as Layout>::Colour;
+    let (width, height) = (usize::from(P::WIDTH), usize::from(P::HEIGHT));
+    let (frame, mut hash) = (controller.frame(), PictureHash::new());
+    let mut sheet = Sheet {
+        colours: Vec::with_capacity(width * height),
+        width,
+        height,
+        pixel: core::marker::PhantomData::<<ColourOf<P> as PanelColour>::Pixel>,
+    };
+    for y in 0..height as u32 {
+        hash.row(row(controller.front(), y));
+        sheet.colours.extend(row(controller.front(), y));
+    }
+    if overlay {
+        let ink = [[255; 3], [0; 3]].map(|rgb| ColourOf::<P>::pixel(ColourOf::<P>::from_rgb888(rgb)));
+        let Ok(()) = Overlay::new(frame, tally).draw(&mut sheet, (0, height as u32), ink);
+    }
+    let pixels = sheet.colours.iter().map(|&colour| board.shown(colour)).collect();
+    Expected { frame, hash: hash.finish(), picture: Picture { width, height, pixels } }
+}
+
+/// A picture of colour words.
+struct Sheet<C> {
+    colours: Vec<u32>,
+    width: usize,
+    height: usize,
+    pixel: core::marker::PhantomData<C>,
+}
+
+impl<C> OriginDimensions for Sheet<C> {
+    fn size(&self) -> Size {
+        Size::new(self.width as u32, self.height as u32)
+    }
+}
+
+impl<C: PixelColor + IntoStorage<Storage: Into<u32>>> DrawTarget for Sheet<C> {
+    type Color = C;
+    type Error = Infallible;
+
+    fn draw_iter<I: IntoIterator<Item = Pixel<C>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+        for Pixel(point, colour) in pixels {
+            let (x, y) = (point.x as usize, point.y as usize);
+            if x < self.width && y < self.height {
+                self.colours[y * self.width + x] = colour.into_storage().into();
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,80 @@
+//! How fast the boards are: frames, missed vsyncs, busy time and stack, at stated instructions a second.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use galpix_controller::scene;
+use galpix_link::frame::Frame;
+
+use crate::boards::Board;
+use crate::emulator::{Emulator, Pace};
+use crate::failure::Failure;
+
+/// Frames that are watched.
+const FRAMES: u32 = 240;
+
+/// What a board is meant to reach: at this pace no vsync is missed, and the longest frame takes at most so many million
+/// instructions a second at 60 frames a second.
+const fn meant(board: Board) -> (u32, f64) {
+    match board {
+        Board::Lm3s6965evb => (4, 50.0),
+        Board::VexpressA9 => (0, 1000.0),
+    }
+}
+
+/// Measures both boards.
+pub fn run(firmware: &Path, check: bool) -> Result<(), Failure> {
+    println!(
+        "| board | million instructions a second | scene | frames a second | missed vsyncs | needed at 60 | stack |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- |");
+    for board in Board::ALL {
+        let (clean, most) = meant(board);
+        for shift in [clean, clean + 1] {
+            let mut emulator = Emulator::start(board, firmware, Pace::Shift(shift))?;
+            let speed = 1000.0 / f64::from(1 << shift);
+            for (number, scene) in (0..).zip(&scene::ALL) {
+                emulator.line.send(&Frame::Scene { number })?;
+                // What was late before, and the scene's first update, do not count.
+                let begin = wait(&mut emulator, 8)?;
+                let end = wait(&mut emulator, FRAMES)?;
+                let (frames, late) = (end.frame.wrapping_sub(begin.frame), end.late.wrapping_sub(begin.late));
+                let rate = 60.0 * f64::from(frames) / f64::from(frames + late);
+                // Of a vsync's 1/60 second, at this speed.
+                let needed = f64::from(end.busy) / f64::from(end.ticks) * speed;
+                println!(
+                    "| {} | {speed:.1} | {} | {rate:.1} | {late} | {needed:.1} | {} of {} |",
+                    board.name(),
+                    scene.name,
+                    end.stack_used,
+                    end.stack
+                );
+                if check && shift == clean && (late > 0 || needed > most) {
+                    return Err(Failure::new(format!(
+                        "{}: {}: {late} vsyncs missed at {speed:.1} million instructions a second, {needed:.1} needed where \
+                         {most:.0} are meant to do",
+                        board.name(),
+                        scene.name
+                    )));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Waits until so many more frames have been shown: how the board is then.
+fn wait(emulator: &mut Emulator, frames: u32) -> Result<galpix_link::frame::Status, Failure> {
+    let begin = emulator.line.status()?.frame;
+    let started = Instant::now();
+    loop {
+        let status = emulator.line.status()?;
+        if status.frame.wrapping_sub(begin) >= frames {
+            return Ok(status);
+        }
+        if started.elapsed() > Duration::from_secs(120) {
+            return Err(Failure::new(format!("frame {} is not left behind", status.frame)));
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}

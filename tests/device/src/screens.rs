@@ -1,0 +1,97 @@
+//! Every pixel of the emulated screens against the simulator.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use galpix_controller::scene;
+use galpix_link::frame::Frame;
+
+use crate::boards::Board;
+use crate::emulator::{Emulator, Pace};
+use crate::expected::{self, Shows};
+use crate::failure::Failure;
+
+/// Where the hashes are kept, in the firmware's folder.
+const KEPT: &str = "hashes.txt";
+
+/// Hashes of pictures: by board, scene and frame.
+type Hashes = BTreeMap<(String, String, u32), u32>;
+
+/// Compares `frames` frames of each built-in scene on each board.
+pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
+    let mut hashes = Hashes::new();
+    for board in Board::ALL {
+        let mut emulator = Emulator::start(board, firmware, Pace::Free)?;
+        lockstep(&mut emulator)?;
+        for (number, scene) in (0..).zip(&scene::ALL) {
+            // The overlay in every second scene: it must neither be missing nor leave anything behind.
+            let overlay = number % 2 == 1;
+            emulator.line.send(&Frame::Overlay { on: overlay })?;
+            emulator.line.send(&Frame::Scene { number })?;
+            let first = emulator.line.status()?.frame;
+            let expected = expected::frames(board, Shows::Scene(number), first, frames, overlay)?;
+            for (age, expected) in (1..).zip(&expected) {
+                compare(&mut emulator, board, scene.name, expected)?;
+                hashes.insert((board.name().into(), scene.name.into(), age), expected.hash);
+            }
+            println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), scene.name);
+        }
+    }
+    keep(firmware, &hashes, write)
+}
+
+/// Makes a board wait after each frame, and takes note of the one that it shows.
+pub fn lockstep(emulator: &mut Emulator) -> Result<(), Failure> {
+    emulator.line.send(&Frame::Lockstep { on: true })?;
+    emulator.line.shown()?;
+    Ok(())
+}
+
+/// Lets the board make its next frame, and compares it.
+fn compare(emulator: &mut Emulator, board: Board, scene: &str, expected: &expected::Expected) -> Result<(), Failure> {
+    emulator.line.send(&Frame::Go)?;
+    let (frame, hash) = emulator.line.shown()?;
+    let screen = emulator.screen()?;
+    let what = format!("{}: {scene}: frame {frame}", board.name());
+    if frame != expected.frame {
+        return Err(Failure::new(format!("{what} where frame {} was expected", expected.frame)));
+    }
+    let differ = screen.pixels.iter().zip(&expected.picture.pixels).filter(|(a, b)| a != b).count();
+    if differ > 0 || hash != expected.hash {
+        return Err(Failure::new(format!(
+            "{what}: {differ} pixels differ from the simulator's, the hash is {hash:08x} and not {:08x}",
+            expected.hash
+        )));
+    }
+    Ok(())
+}
+
+/// Compares with the kept hashes, or keeps these.
+fn keep(firmware: &Path, hashes: &Hashes, write: bool) -> Result<(), Failure> {
+    let file = firmware.join(KEPT);
+    let mut text = String::from("# Hashes of what the panels show: board, scene, frames since it began, CRC-32.\n");
+    for ((board, scene, age), hash) in hashes {
+        let _ = writeln!(text, "{board} {scene} {age} {hash:08x}");
+    }
+    if write {
+        std::fs::write(&file, text)
+            .map_err(|error| Failure::new(format!("{} cannot be written: {error}", file.display())))?;
+        println!("{} hashes kept in {}", hashes.len(), file.display());
+        return Ok(());
+    }
+    let kept = std::fs::read_to_string(&file)
+        .map_err(|error| Failure::new(format!("{} cannot be read ({error}): make it with --write", file.display())))?;
+    let different = text.lines().zip(kept.lines()).find(|(a, b)| a != b);
+    match different {
+        None if text.lines().count() == kept.lines().count() => {
+            println!("{} hashes are the kept ones", hashes.len());
+            Ok(())
+        }
+        None => Err(Failure::new(format!("{} has other frames: make it anew with --write", file.display()))),
+        Some((now, kept)) => Err(Failure::new(format!(
+            "what the panels show has changed: now `{now}`, kept `{kept}`; if that is meant, make {} anew with --write",
+            file.display()
+        ))),
+    }
+}
