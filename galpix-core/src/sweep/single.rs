@@ -130,6 +130,9 @@ macro_rules! each_word {
     };
 }
 
+/// The least word that has the class of an empty cell at its top.
+const EMPTY_AT_TOP: u32 = (Class::Empty as u32) << 30;
+
 /// What a loop over the cells of a stretch takes along.
 const X: usize = 0;
 /// See [`X`].
@@ -153,6 +156,7 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
     let set = words_of::<L>(&record, PART);
     let class = record.class().extract();
     let (class_word, _) = record.class().words();
+    let at_top = record.class().at_top().is_some();
     // What x has written, y takes on from there.
     let written = if PART == Y { words_of::<L>(&record, X) } else { 0 };
     let looks = PART == X || PART == ALL;
@@ -185,7 +189,8 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
         if looks {
             // The class of the first one, and a cell that is empty, with both bits of its class set.
             let open = targets[class_word][lane] & !(sources[class_word][lane] ^ alike);
-            if class.unsigned(open, open) != Class::Empty as u32 {
+            let empty = if at_top { open >= EMPTY_AT_TOP } else { class.unsigned(open, open) == Class::Empty as u32 };
+            if !empty {
                 break;
             }
         }
