@@ -77,11 +77,12 @@ fn every_galpixel_of_a_scene_arrives() {
     let report = report.unwrap();
     assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
     // 128 galpixels a row, 56 in a frame at most; the device's counter stood at 1003 when it was asked.
-    assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 3 * 8));
+    assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 6 * 8));
     assert_eq!(report.updates.len(), 1);
     assert_eq!((report.updates[0].stamp, report.updates[0].time, report.updates[0].galpixels), (1003, 0, 8192));
     assert_eq!(device.stamps, vec![(0, 1003, 0); 192]);
     assert_eq!(device.status.scene, NO_SCENE, "only what is sent is seen");
+    assert!(!device.status.lockstep, "it goes on");
     let answer = report.device.unwrap();
     assert_eq!((answer.frame, answer.accepted, answer.refused, answer.late), (1006, 192, 0, 0));
 }
@@ -120,12 +121,12 @@ fn a_tenth_of_the_frames_is_corrupted_and_the_rest_is_right() {
     };
     let (report, device) = over_tcp(&scene_source("crossing"), &ONE, Device::new::<Oled>(), noise);
     let report = report.unwrap();
-    assert_eq!(corrupted, 19, "of 192 frames of galpixels, two questions and a scene");
+    assert_eq!(corrupted, 20, "of 192 frames of galpixels and six others");
     assert!(report.updates[0].saturated > 0, "the tram is faster than 4 cells a frame");
     let answer = report.device.unwrap();
-    assert_eq!((report.frames, answer.accepted, answer.refused), (192, 192 - 19, 19), "{:?}", answer.rejected);
+    assert_eq!((report.frames, answer.accepted, answer.refused), (192, 192 - 20, 20), "{:?}", answer.rejected);
     let rejected = device.status.rejected;
-    assert_eq!(rejected.of(Rejected::WrongChecksum) + rejected.of(Rejected::CutShort), 19);
+    assert_eq!(rejected.of(Rejected::WrongChecksum) + rejected.of(Rejected::CutShort), 20);
     assert_eq!(answer.rejected["wrong_checksum"], rejected.of(Rejected::WrongChecksum));
     // What was lost is as it was before; a word is a galpixel here.
     let (mut expected, before) = (memory::<Oled>(&scene_on::<Oled>("crossing", 0)), memory::<Oled>(&[]));
@@ -162,6 +163,20 @@ fn a_device_in_lockstep_is_told_to_go_on() {
     assert_eq!(stamps, [(1000, 0), (1005, 5)], "not a frame more than is due");
     assert!(device.memory == memory::<Lcd>(&tagged::<Lcd>("drift", 5, 1)), "another map");
     assert!(device.stamps.iter().all(|&(_, _, age)| age == 0));
+    assert!(device.status.lockstep, "it was before");
+}
+
+#[test]
+fn a_device_is_told_again_to_go_on() {
+    // A question, the scene, lockstep, a question, the update: then it shall go on, and does not hear it.
+    let noise = |count: usize, frame: &mut Vec<u8>| {
+        if count == 4 + 192 {
+            frame.clear();
+        }
+    };
+    let (report, device) = over_tcp(&scene_source("still"), &ONE, Device::new::<Oled>(), noise);
+    assert_eq!(report.unwrap().device.unwrap().accepted, 192);
+    assert!(!device.status.lockstep);
 }
 
 #[test]

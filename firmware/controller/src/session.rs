@@ -162,7 +162,8 @@ where
             let (mut begin, mut frames) = (self.board.ticks(), 0);
             while self.line.status.lockstep && !self.line.go {
                 self.listen(1);
-                if self.board.ticks().wrapping_sub(begin) >= B::TICKS_PER_FRAME {
+                // A clock that is read beside its own interrupt may seem to go back: then it is not yet time.
+                if self.board.ticks().wrapping_sub(begin) as i32 >= B::TICKS_PER_FRAME as i32 {
                     begin = begin.wrapping_add(B::TICKS_PER_FRAME);
                     frames += 1;
                     // A host that has gone away does not stop the picture for ever.

@@ -65,6 +65,10 @@ impl Device {
                 self.memory.clone_from(&self.empty);
                 None
             }
+            Frame::Lockstep { on } => {
+                self.status.lockstep = *on;
+                on.then_some(Frame::Shown { frame: self.status.frame, hash: 0 })
+            }
             Frame::Go if self.status.lockstep => {
                 self.status.frame = self.status.frame.wrapping_add(self.pace);
                 Some(Frame::Shown { frame: self.status.frame, hash: 0 })

@@ -2,8 +2,8 @@
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-use cortex_m::peripheral::SYST;
 use cortex_m::peripheral::syst::SystClkSource;
+use cortex_m::peripheral::{SCB, SYST};
 
 /// The processor's clock after a reset, in Hz.
 const CLOCK: u32 = 12_500_000;
@@ -48,8 +48,10 @@ pub fn ticks() -> u32 {
     loop {
         let vsyncs = VSYNCS.load(Ordering::Relaxed);
         let left = SYST::get_current();
-        if VSYNCS.load(Ordering::Relaxed) == vsyncs {
-            return vsyncs.wrapping_mul(TICKS_PER_FRAME).wrapping_add(TICKS_PER_FRAME - left);
+        // The timer has begun anew, and its interrupt waits: the count is one behind.
+        let pending = u32::from(SCB::is_pendst_pending());
+        if VSYNCS.load(Ordering::Relaxed) == vsyncs && SYST::get_current() <= left {
+            return (vsyncs + pending).wrapping_mul(TICKS_PER_FRAME).wrapping_add(TICKS_PER_FRAME - left);
         }
     }
 }
