@@ -64,7 +64,7 @@ fn swing(seed: u32, counter: u32, power: i32) -> I32F32 {
 
 /// Noise in `0 .. count`.
 fn below(seed: u32, counter: u32, count: u32) -> i32 {
-    ((noise(seed, counter) >> 16) * count >> 16) as i32
+    (((noise(seed, counter) >> 16) * count) >> 16) as i32
 }
 
 /// A number of `thousandths`.
