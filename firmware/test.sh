@@ -17,8 +17,10 @@ export CARGO_TARGET_DIR="$PWD/target"
 # The same emulated machine runs what is compiled for all three.
 COST_TARGETS=(thumbv6m-none-eabi thumbv7m-none-eabi thumbv7em-none-eabi)
 PROOF_TARGETS=("${COST_TARGETS[@]}" riscv32imac-unknown-none-elf)
-TARGETS=("${PROOF_TARGETS[@]}")
-STEPS=(format clippy build proof machine-code cost)
+OLED_TARGET=thumbv7m-none-eabi
+LCD_TARGET=armv7a-none-eabi
+TARGETS=("${PROOF_TARGETS[@]}" "$LCD_TARGET")
+STEPS=(format clippy build proof machine-code kernels cost screens faults pace)
 
 summary=() passed=0 failed=0 skipped=0
 write_cost=()
@@ -120,14 +122,44 @@ step_clippy() {
     cargo clippy --locked --quiet -p galpix-check --all-targets -- -D warnings
     on clippy galpix-proof "--all-features -- -D warnings" thumbv7em-none-eabi
     on clippy galpix-cost "-- -D warnings" thumbv7em-none-eabi
+    missing="$(absent "$OLED_TARGET" "$LCD_TARGET")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    cargo clippy --locked --quiet -p galpix-link -p galpix-controller -p galpix-kernels -- -D warnings
+    on clippy lm3s6965evb "-- -D warnings" "$OLED_TARGET"
+    on clippy lm3s6965evb "--no-default-features --features probe -- -D warnings" "$OLED_TARGET"
+    on clippy vexpress-a9 "-- -D warnings" "$LCD_TARGET"
 }
 
 step_build() {
     local missing
-    missing="$(absent "${PROOF_TARGETS[@]}")"
+    missing="$(absent "${TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
     on build galpix-proof --release "${PROOF_TARGETS[@]}"
     on build galpix-cost --release "${COST_TARGETS[@]}"
+    boards
+}
+
+# The programs of the boards with a panel, and what they take of flash and RAM. A program of no size was linked without
+# its linker script.
+boards() {
+    on build lm3s6965evb --release "$OLED_TARGET"
+    on build vexpress-a9 --release "$LCD_TARGET"
+    cargo run --locked --quiet -p galpix-check -- size "target/$OLED_TARGET/release/lm3s6965evb" \
+        "target/$LCD_TARGET/release/vexpress-a9"
+}
+
+# The tool that talks to the boards in the emulator: part of the workspace above, for it needs the simulator.
+device() {
+    (cd .. && CARGO_TARGET_DIR="$PWD/target" cargo run --locked --quiet --release -p galpix-device -- "$@")
+}
+
+# What a step needs that runs the boards' programs. Skips it if that cannot be had.
+have_boards() {
+    local missing
+    missing="$(absent "$OLED_TARGET" "$LCD_TARGET")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return 1; }
+    have_qemu || { skip "not installed: qemu-system-arm, to be had with: apt-get install qemu-system-arm"; return 1; }
+    boards >/dev/null
 }
 
 # It links: no panic can be reached. With one planted it must not, and must say why.
@@ -179,6 +211,30 @@ step_cost() {
     for run in "${runs[@]}"; do wait "$run"; done
     cargo run --locked --quiet -p galpix-check -- cost "${write_cost[@]}" "${files[@]}"
 }
+
+# All states of a tiny budget, on the processors and on the host: the same hash.
+step_kernels() {
+    local missing target
+    missing="$(absent "${COST_TARGETS[@]}")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    have_qemu || { skip "not installed: qemu-system-arm, to be had with: apt-get install qemu-system-arm"; return; }
+    on build galpix-cost --release "${COST_TARGETS[@]}"
+    for target in "${COST_TARGETS[@]}"; do
+        printf '%s: ' "$target"
+        limited 120 qemu-system-arm -M mps2-an386 -display none -monitor none -serial none \
+            -semihosting-config enable=on,target=native -kernel "target/$target/release/galpix-kernels-on-target"
+    done
+    cargo test --locked --quiet --release -p galpix-kernels
+}
+
+# Every pixel of both emulated screens against the simulator, and both against the kept hashes.
+step_screens() { have_boards || return 0; device screens; }
+
+# Random and corrupted frames over the line.
+step_faults() { have_boards || return 0; device faults; }
+
+# Frames a second, missed vsyncs, busy time and stack at stated instructions a second.
+step_pace() { have_boards || return 0; device pace --check; }
 
 # --- running them ----------------------------------------------------------------------------------------------------
 

@@ -1,8 +1,9 @@
 //! Updates over a serial line to a display controller: fitted to its panel, stored as its maps store them, row by row.
 //!
-//! The host asks how the device is, takes the device's frame counter as the stamp of an update, sends it, and asks
-//! again: the device's own counters say what arrived. A scene gives a new update every few frames *of the device*, at
-//! the scene's time then. What the frames are is in `docs/link.md`.
+//! The host asks how the device is, lets it show nothing but what is sent, takes its frame counter as the stamp of an
+//! update, sends it, and asks again: the device's own counters say what arrived. A scene gives a new update every few frames
+//! *of the device*, at the scene's time then; a device in lockstep is told to make them. All galpixels of an update carry its
+//! number as their tag. What the frames are is in `docs/link.md`.
 
 mod address;
 mod error;
@@ -17,7 +18,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use galpix_core::galpixel::{Class, Galpixel};
-use galpix_link::frame::{Frame, Galpixels, Status};
+use galpix_link::frame::{Frame, Galpixels, NO_SCENE, Status};
 use galpix_link::panel::{self, Description};
 use galpix_link::rejected::{Rejected, Rejections};
 use serde::Serialize;
@@ -35,6 +36,8 @@ use crate::fit;
 const POLL: Duration = Duration::from_millis(10);
 /// How long the counter may stand still while an update waits for its frame.
 const STANDSTILL: Duration = Duration::from_secs(5);
+/// After this time a device in lockstep that has not moved is told again: what told it was lost.
+const AGAIN: Duration = Duration::from_secs(1);
 
 /// What to send.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +48,8 @@ pub struct Request {
     pub updates: u32,
     /// Frames of the device between two updates.
     pub every: u32,
+    /// Whether the device's built-in scene goes on underneath.
+    pub over_scene: bool,
 }
 
 impl Request {
@@ -137,6 +142,9 @@ pub fn send(
     let panel = panel_of(request.panel, first.as_ref(), to)?;
     let rows = u64::from(request.updates) * u64::from(panel.height);
     let base = first.map_or(0, |status| status.frame);
+    if !request.over_scene {
+        talk.put(&Frame::Scene { number: NO_SCENE });
+    }
     let (mut last, mut updates, mut frames) = (first, Vec::new(), 0);
     for update in 0..request.updates {
         let due = update.saturating_mul(request.every);
@@ -146,7 +154,7 @@ pub fn send(
             *status = wait(&mut talk, *status, base, due)?;
         }
         let time = last.map_or(due, |status| status.frame.wrapping_sub(base));
-        let galpixels = galpixels(source, time, &panel);
+        let galpixels = galpixels(source, time, &panel, update);
         let packed = pack(&panel, &galpixels)?;
         let stamp = base.wrapping_add(time);
         let head = Galpixels { update: update as u16, stamp, fingerprint: panel.fingerprint, y: 0, x: 0, words: &[] };
@@ -198,18 +206,23 @@ fn panel_of(wanted: Option<Description>, status: Option<&Status>, to: &str) -> R
     }
 }
 
-/// The galpixels of a source `time` frames after its update, on a panel.
-fn galpixels(source: &Source, time: u32, panel: &Description) -> Vec<Galpixel> {
+/// The galpixels of a source `time` frames after its update, on a panel; their tag is `tag`, of which they keep the low bits.
+fn galpixels(source: &Source, time: u32, panel: &Description, tag: u32) -> Vec<Galpixel> {
     let (width, height) = (usize::from(panel.width), usize::from(panel.height));
-    match source {
+    let mut galpixels = match source {
         Source::Scene(scene) => fit::scene(*scene, f64::from(time), width, height),
         Source::Capture(capture) => fit::update(&capture.update, width, height),
+    };
+    for galpixel in &mut galpixels {
+        galpixel.tag = tag;
     }
+    galpixels
 }
 
-/// Waits until the device's frame counter is `due` frames beyond `base`.
+/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it makes these frames because it is told.
 fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<Status, SendError> {
     let mut moved = Instant::now();
+    let mut told: Option<(u32, Instant)> = None;
     loop {
         let Some(now) = talk.ask()? else { return Ok(status) };
         if now.frame.wrapping_sub(base) >= due {
@@ -219,6 +232,12 @@ fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<
             moved = Instant::now();
         } else if moved.elapsed() > STANDSTILL {
             return Err(SendError::Standstill { to: talk.to().to_owned(), frame: now.frame });
+        }
+        // Once a frame, and not once a question: it would run ahead of the answers.
+        if now.lockstep && told.is_none_or(|(frame, when)| frame != now.frame || when.elapsed() > AGAIN) {
+            talk.put(&Frame::Go);
+            talk.flush()?;
+            told = Some((now.frame, Instant::now()));
         }
         status = now;
         std::thread::sleep(POLL);

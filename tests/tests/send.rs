@@ -10,7 +10,7 @@ use std::thread;
 use device::{Device, connection, memory, port};
 use galpix_core::galpixel::Galpixel;
 use galpix_link::decode::Decoder;
-use galpix_link::frame::{Frame, Galpixels};
+use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
 use galpix_link::panel::{Lcd, Oled, Panel};
 use galpix_link::rejected::Rejected;
 use galpix_sim::capture::ImportOptions;
@@ -20,7 +20,7 @@ use galpix_sim::{fit, scene};
 use galpix_tests::random;
 use rand::RngExt;
 
-const ONE: Request = Request { panel: None, updates: 1, every: 8 };
+const ONE: Request = Request { panel: None, updates: 1, every: 8, over_scene: false };
 
 fn marbles() -> Source {
     let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles/capture.toml");
@@ -31,9 +31,15 @@ fn scene_source(name: &str) -> Source {
     Source::open(name, &ImportOptions::default()).unwrap()
 }
 
-/// A scene on a panel.
+/// A scene on a panel, as the first update.
 fn scene_on<P: Panel>(name: &str, time: u32) -> Vec<Galpixel> {
-    fit::scene(scene::find(name).unwrap(), f64::from(time), P::WIDTH.into(), P::HEIGHT.into())
+    tagged::<P>(name, time, 0)
+}
+
+/// The same as update number `tag`.
+fn tagged<P: Panel>(name: &str, time: u32, tag: u32) -> Vec<Galpixel> {
+    let galpixels = fit::scene(scene::find(name).unwrap(), f64::from(time), P::WIDTH.into(), P::HEIGHT.into());
+    galpixels.into_iter().map(|galpixel| Galpixel { tag, ..galpixel }).collect()
 }
 
 /// Sends to an address.
@@ -69,12 +75,13 @@ fn no_noise(_: usize, _: &mut Vec<u8>) {}
 fn every_galpixel_of_a_scene_arrives() {
     let (report, device) = over_tcp(&scene_source("drift"), &ONE, Device::new::<Oled>(), no_noise);
     let report = report.unwrap();
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("drift", 0)));
+    assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
     // 128 galpixels a row, 56 in a frame at most; the device's counter stood at 1003 when it was asked.
-    assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 2 * 8));
+    assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 3 * 8));
     assert_eq!(report.updates.len(), 1);
     assert_eq!((report.updates[0].stamp, report.updates[0].time, report.updates[0].galpixels), (1003, 0, 8192));
     assert_eq!(device.stamps, vec![(0, 1003, 0); 192]);
+    assert_eq!(device.status.scene, NO_SCENE, "only what is sent is seen");
     let answer = report.device.unwrap();
     assert_eq!((answer.frame, answer.accepted, answer.refused, answer.late), (1006, 192, 0, 0));
 }
@@ -84,7 +91,7 @@ fn a_capture_arrives_on_the_larger_panel() {
     let source = marbles();
     let (report, device) = over_tcp(&source, &ONE, Device::new::<Lcd>(), no_noise);
     let report = report.unwrap();
-    assert_eq!(device.memory, memory::<Lcd>(&fit::update(&source.update(), 320, 240)));
+    assert!(device.memory == memory::<Lcd>(&fit::update(&source.update(), 320, 240)), "another map");
     assert_eq!((report.panel, report.frames), ("lcd", 18 * 240));
     assert_eq!(report.device.unwrap().accepted, 18 * 240);
     assert_eq!(report.updates[0].galpixels + report.updates[0].empty, 320 * 240);
@@ -113,7 +120,7 @@ fn a_tenth_of_the_frames_is_corrupted_and_the_rest_is_right() {
     };
     let (report, device) = over_tcp(&scene_source("crossing"), &ONE, Device::new::<Oled>(), noise);
     let report = report.unwrap();
-    assert_eq!(corrupted, 19, "of 192 frames of galpixels and two questions");
+    assert_eq!(corrupted, 19, "of 192 frames of galpixels, two questions and a scene");
     assert!(report.updates[0].saturated > 0, "the tram is faster than 4 cells a frame");
     let answer = report.device.unwrap();
     assert_eq!((report.frames, answer.accepted, answer.refused), (192, 192 - 19, 19), "{:?}", answer.rejected);
@@ -126,22 +133,42 @@ fn a_tenth_of_the_frames_is_corrupted_and_the_rest_is_right() {
     for cell in lost {
         expected[cell] = before[cell];
     }
-    assert_eq!(device.memory, expected);
+    assert!(device.memory == expected, "another map");
 }
 
 #[test]
 fn a_scene_follows_the_devices_frames() {
-    let request = Request { updates: 3, every: 20, ..ONE };
+    let request = Request { updates: 4, every: 20, ..ONE };
     let (report, device) = over_tcp(&scene_source("drift"), &request, Device::new::<Oled>(), no_noise);
     let report = report.unwrap();
-    // The counter goes on by 3 with each question: it is 21 and 42 frames on when 20 and 40 are due.
+    // The counter goes on by 3 with each question: it is 21 and 42 frames on when 20, 40 and 60 are due.
     let stamps: Vec<_> = report.updates.iter().map(|sent| (sent.update, sent.stamp, sent.time)).collect();
-    assert_eq!(stamps, [(0, 1003, 0), (1, 1024, 21), (2, 1045, 42)]);
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("drift", 42)));
+    assert_eq!(stamps, [(0, 1003, 0), (1, 1024, 21), (2, 1045, 42), (3, 1063, 60)]);
+    assert!(device.memory == memory::<Oled>(&tagged::<Oled>("drift", 60, 3)), "another map");
+    assert!(device.memory != memory::<Oled>(&scene_on::<Oled>("drift", 60)), "the tag is stored");
     let mut expected: Vec<_> = stamps.iter().map(|&(update, stamp, _)| (update, stamp, 0)).collect();
     expected = expected.iter().flat_map(|&stamp| [stamp; 192]).collect();
     assert_eq!(device.stamps, expected);
-    assert_eq!(report.device.unwrap().accepted, 3 * 192);
+    assert_eq!(report.device.unwrap().accepted, 4 * 192);
+}
+
+#[test]
+fn a_device_in_lockstep_is_told_to_go_on() {
+    let mut device = Device::new::<Lcd>();
+    (device.status.lockstep, device.pace) = (true, 1);
+    let request = Request { updates: 2, every: 5, ..ONE };
+    let (report, device) = over_tcp(&scene_source("drift"), &request, device, no_noise);
+    let stamps: Vec<_> = report.unwrap().updates.iter().map(|sent| (sent.stamp, sent.time)).collect();
+    assert_eq!(stamps, [(1000, 0), (1005, 5)], "not a frame more than is due");
+    assert!(device.memory == memory::<Lcd>(&tagged::<Lcd>("drift", 5, 1)), "another map");
+    assert!(device.stamps.iter().all(|&(_, _, age)| age == 0));
+}
+
+#[test]
+fn a_scene_of_the_device_may_stay() {
+    let request = Request { over_scene: true, ..ONE };
+    let (report, device) = over_tcp(&scene_source("drift"), &request, Device::new::<Oled>(), no_noise);
+    assert_eq!((report.unwrap().frames, device.status.scene), (192, 0));
 }
 
 #[test]
@@ -153,7 +180,7 @@ fn a_lost_question_is_asked_again() {
     };
     let (report, device) = over_tcp(&scene_source("still"), &ONE, Device::new::<Oled>(), noise);
     assert_eq!(report.unwrap().device.unwrap().accepted, 192);
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("still", 0)));
+    assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("still", 0)), "another map");
 }
 
 #[test]
@@ -207,7 +234,7 @@ fn a_file_keeps_the_stream() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("stream");
     let address = Address::File(path.clone());
-    let request = Request { panel: Some(Oled::DESCRIPTION), updates: 2, every: 5 };
+    let request = Request { panel: Some(Oled::DESCRIPTION), updates: 2, every: 5, ..ONE };
     let report = sent(&scene_source("drift"), &request, &address).unwrap();
     assert!(report.device.is_none());
     assert_eq!(report.updates.iter().map(|sent| sent.stamp).collect::<Vec<_>>(), [0, 5]);
@@ -217,7 +244,7 @@ fn a_file_keeps_the_stream() {
     let mut device = Device::new::<Oled>();
     let line = std::io::Cursor::new(bytes);
     device.live(ReadOnly(line), &AtomicBool::new(false), no_noise);
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("drift", 5)));
+    assert!(device.memory == memory::<Oled>(&tagged::<Oled>("drift", 5, 1)), "another map");
     assert_eq!(device.stamps.len(), 2 * 192);
 }
 
@@ -257,7 +284,7 @@ fn a_socket_in_the_file_system_carries_it_too() {
         assert_eq!(report.device.unwrap().accepted, 192);
         living.join().unwrap()
     });
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("drift", 0)));
+    assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
 }
 
 #[cfg(target_os = "linux")]
@@ -279,5 +306,5 @@ fn a_serial_line_carries_it_too() {
         assert_eq!(report.unwrap().device.unwrap().accepted, 192);
         living.join().unwrap()
     });
-    assert_eq!(device.memory, memory::<Oled>(&scene_on::<Oled>("drift", 0)));
+    assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
 }

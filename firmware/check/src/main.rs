@@ -3,6 +3,7 @@
 //! ```text
 //! galpix-check cost [--write] [RUN.csv...]    counted instructions beside firmware/cost.csv
 //! galpix-check machine-code ELF [NAME...]     what the functions of these names reach
+//! galpix-check size ELF...                    what programs take of flash and RAM
 //! ```
 //!
 //! Without files `cost` reads standard input; without names `machine-code` takes those that begin with `proof_`.
@@ -11,6 +12,7 @@
 
 mod cost;
 mod machine_code;
+mod size;
 
 use std::process::ExitCode;
 
@@ -23,12 +25,13 @@ struct Findings {
     faults: Vec<String>,
 }
 
-const USAGE: &str = "usage: galpix-check cost [--write] [RUN.csv...]\n       galpix-check machine-code ELF [NAME...]";
+const USAGE: &str = "usage: galpix-check cost [--write] [RUN.csv...]\n       galpix-check machine-code ELF [NAME...]\n       galpix-check size ELF...";
 
 fn run(arguments: &[&str]) -> Result<Findings, String> {
     match arguments {
         ["cost", "--write", files @ ..] => cost::run(files, true),
         ["cost", files @ ..] => cost::run(files, false),
+        ["size", files @ ..] => size::run(files),
         ["machine-code", file, names @ ..] => machine_code::run(file, names),
         _ => Err(USAGE.to_owned()),
     }

@@ -20,18 +20,14 @@ use galpix_core::rounding::Rounding;
 use galpix_core::sweep;
 
 /// The hash of all words.
-pub const HASH: u32 = 0x0000_0000;
+pub const HASH: u32 = 0x2782_2e88;
 
 /// States that are tried.
 pub const STATES: u32 = CASES.len() as u32 * (1 << 16);
 
 /// Roundings and frame counters: all thresholds of one dropped bit.
-const CASES: [(Rounding, u32); 4] = [
-    (Rounding::Truncate, 0),
-    (Rounding::Nearest, 0),
-    (Rounding::LowDiscrepancy, 0),
-    (Rounding::LowDiscrepancy, 1),
-];
+const CASES: [(Rounding, u32); 4] =
+    [(Rounding::Truncate, 0), (Rounding::Nearest, 0), (Rounding::LowDiscrepancy, 0), (Rounding::LowDiscrepancy, 1)];
 
 /// Cells between two galpixels: none reaches another one's.
 const APART: i32 = 8;

@@ -1,6 +1,6 @@
 //! The sweep for processors without vector registers, where a buffer between the two stages costs more than it saves.
 //!
-//! Neighbours mostly move alike. A **stretch** is a run of galpixels of one class with one displacement, whose fields do not
+//! Neighbours mostly move alike. A **stretch** is a run of galpixels and debris with one displacement, whose fields do not
 //! stray and whose new cells are still empty. It is taken straight from the old map into the new one, component by component:
 //! a loop over the cells for x and y, and where these are in words of their own, a second one for class and depth, so that
 //! what a loop needs stays in registers. A loop that meets a galpixel of another kind ends the stretch there. All else
@@ -140,7 +140,7 @@ const DEPTH: usize = 2;
 const ALL: usize = 3;
 
 /// Takes the words of a part of what moves from where a stretch is to where it goes, a step further: of at most `count`
-/// galpixels, up to the first that goes another way, is of another class, or goes to a cell that is taken. Returns how many.
+/// galpixels, up to the first that goes another way, is empty or just unobscured, or goes to a cell that is taken. Returns how many.
 #[inline(never)]
 fn pass<L: Layout, B: Budget<L>, const PART: usize>(
     front: &Galpixmap<'_, L, B>,
@@ -151,7 +151,6 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
 ) -> u32 {
     let record = *front.record();
     let set = words_of::<L>(&record, PART);
-    let class = record.class().extract();
     let (class_word, _) = record.class().words();
     // What x has written, y takes on from there.
     let written = if PART == Y { words_of::<L>(&record, X) } else { 0 };
@@ -173,7 +172,6 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
         }
     }
     let (thresholds, moved) = (*thresholds, stretch.moved);
-    let alike = if looks { sources[class_word].first().copied().unwrap_or_default() } else { 0 };
     let mut lane = 0;
     while lane < count {
         let mut words = [0; MAX_WORDS];
@@ -183,9 +181,10 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
             }
         });
         if looks {
-            // The class of the first one, and a cell that is empty, with both bits of its class set.
-            let open = targets[class_word][lane] & !(sources[class_word][lane] ^ alike);
-            if class.unsigned(open, open) != Class::Empty as u32 {
+            // The lower bit of the class: what was just unobscured and what is empty has it. Of what a sweep puts into
+            // cells nothing has, so that it tells a cell that is empty.
+            let open = targets[class_word][lane] & !sources[class_word][lane];
+            if open >> record.class().shift & 1 == 0 {
                 break;
             }
         }

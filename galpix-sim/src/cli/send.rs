@@ -44,6 +44,9 @@ pub struct Send {
     /// Frames of the device between two updates
     #[arg(long, value_name = "FRAMES", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     every: u32,
+    /// Leave the device's built-in scene on, and send into it; else only what is sent is seen
+    #[arg(long)]
+    over_scene: bool,
     /// Bits a second of a serial device [default: 115200]
     #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u32).range(1..))]
     baud: Option<u32>,
@@ -57,7 +60,8 @@ impl Send {
     pub fn run(&self) -> Result<(), CliError> {
         let unusable = |error: &dyn std::fmt::Display| CliError::Unusable(printable(&error.to_string()));
         let source = Source::open(&self.source, &ImportOptions::default()).map_err(CliError::unusable)?;
-        let request = Request { panel: self.panel.map(Description::from), updates: self.updates, every: self.every };
+        let Self { updates, every, over_scene, .. } = *self;
+        let request = Request { panel: self.panel.map(Description::from), updates, every, over_scene };
         // Before a file is made.
         request.check(&source, &self.to).map_err(|error| unusable(&error))?;
         let mut line = self.to.open(self.baud).map_err(|error| unusable(&error))?;

@@ -61,7 +61,7 @@ pub enum SendError {
     },
     /// The frame counter does not move.
     #[error(
-        "the device at {to} stands still at frame {frame}, and an update waits for a later one: is it in lockstep?"
+        "the device at {to} stands still at frame {frame}, and an update waits for a later one: start the device again"
     )]
     Standstill {
         /// Where it was sent.

@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use galpix_controller::scene;
-use galpix_link::frame::Frame;
+use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
+use galpix_sim::send::pack;
+use galpix_sim::{fit, scene as sources};
 
 use crate::boards::Board;
 use crate::emulator::{Emulator, Pace};
@@ -15,10 +17,16 @@ use crate::failure::Failure;
 /// Where the hashes are kept, in the firmware's folder.
 const KEPT: &str = "hashes.txt";
 
+/// The simulator's scene that is sent, and what it is called among the hashes.
+const SENT: (&str, &str) = ("crossing", "sent-crossing");
+
+/// The number of its update, and the tag of its galpixels.
+const UPDATE: u16 = 1;
+
 /// Hashes of pictures: by board, scene and frame.
 type Hashes = BTreeMap<(String, String, u32), u32>;
 
-/// Compares `frames` frames of each built-in scene on each board.
+/// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board.
 pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
     let mut hashes = Hashes::new();
     for board in Board::ALL {
@@ -37,8 +45,52 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
             }
             println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), scene.name);
         }
+        let (first, words) = sent(&mut emulator, board)?;
+        for (age, expected) in (1..).zip(&expected::frames(board, Shows::Sent(&words), first, frames, false)?) {
+            compare(&mut emulator, board, SENT.1, expected)?;
+            hashes.insert((board.name().into(), SENT.1.into(), age), expected.hash);
+        }
+        println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), SENT.1);
     }
     keep(firmware, &hashes, write)
+}
+
+/// Sends an update that is exact at the frame which the board shows: that frame, and all words of each galpixel, row by row.
+fn sent(emulator: &mut Emulator, board: Board) -> Result<(u32, Vec<u32>), Failure> {
+    let panel = board.panel();
+    let source = sources::find(SENT.0).ok_or_else(|| Failure::new(format!("there is no scene {}", SENT.0)))?;
+    let mut galpixels = fit::scene(source, 0.0, panel.width.into(), panel.height.into());
+    for galpixel in &mut galpixels {
+        galpixel.tag = UPDATE.into();
+    }
+    let packed = pack(&panel, &galpixels).map_err(|error| Failure::new(error.to_string()))?;
+    emulator.line.send(&Frame::Overlay { on: false })?;
+    emulator.line.send(&Frame::Scene { number: NO_SCENE })?;
+    let before = emulator.line.status()?;
+    let most = panel.galpixels_per_frame();
+    let mut count = 0;
+    for (y, row) in (0..).zip(packed.rows(&panel)) {
+        for (x, words) in (0..).step_by(most).zip(row.chunks(most * panel.bytes_per_galpixel())) {
+            let (update, stamp, fingerprint) = (UPDATE, before.frame, panel.fingerprint);
+            emulator.line.send(&Frame::Galpixels(Galpixels { update, stamp, fingerprint, y, x, words }))?;
+            count += 1;
+        }
+        // No more is on its way than the line holds.
+        emulator.line.status()?;
+    }
+    let after = emulator.line.status()?;
+    let accepted = after.accepted.wrapping_sub(before.accepted);
+    if (accepted, after.frame) != (count, before.frame) {
+        return Err(Failure::new(format!(
+            "{}: {accepted} of {count} frames of galpixels were accepted, at frame {} of {}: {:?}",
+            board.name(),
+            after.frame,
+            before.frame,
+            after.rejected.since(&before.rejected).counts()
+        )));
+    }
+    let words = packed.bytes.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes)).collect();
+    Ok((before.frame, words))
 }
 
 /// Makes a board wait after each frame, and takes note of the one that it shows.

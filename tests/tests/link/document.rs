@@ -58,13 +58,22 @@ fn the_tables_are_those_of_the_product() {
             ("acceleration in x", record.acceleration(0)),
             ("acceleration in y", record.acceleration(1)),
             ("colour", record.colour()),
+            ("tag", record.tag()),
         ] {
             let cells = row(&document, &[panel.name, name]);
-            let bits = match field.present() {
-                true => format!("word {}, bits {} to {}", field.word, field.shift + field.bits - 1, field.shift),
-                false => "–".to_owned(),
+            let upper = field.bits - field.spill;
+            let mut bits = match upper {
+                0 => "–".to_owned(),
+                1 => format!("word {}, bit {}", field.word, field.shift),
+                upper => format!("word {}, bits {} to {}", field.word, field.shift + upper - 1, field.shift),
             };
-            assert_eq!((cells[0], field.spill), (bits.as_str(), 0), "{}, {name}", panel.name);
+            // The lower part is at the top of the next word.
+            match field.spill {
+                0 => {}
+                1 => bits += &format!("; word {}, bit 31", field.word + 1),
+                spill => bits += &format!("; word {}, bits 31 to {}", field.word + 1, 32 - spill),
+            }
+            assert_eq!(cells[0], bits, "{}, {name}", panel.name);
         }
     }
     for cause in Rejected::ALL {

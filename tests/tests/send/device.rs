@@ -9,7 +9,7 @@ use galpix_core::galpixel::{Galpixel, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
 use galpix_link::decode::Decoder;
-use galpix_link::frame::{Frame, MAX_ENCODED, Status};
+use galpix_link::frame::{Frame, MAX_ENCODED, NO_SCENE, Status};
 use galpix_link::panel::{Description, Panel};
 use galpix_sim::send::Address;
 
@@ -32,10 +32,12 @@ pub struct Device {
     panel: Description,
     /// Its map, in the order of planes.
     pub memory: Vec<u32>,
+    /// The map as it is after a start.
+    empty: Vec<u32>,
     pub status: Status,
     /// Update, stamp, and age on arrival, of each frame of galpixels.
     pub stamps: Vec<(u16, u32, u32)>,
-    /// Frames that its counter goes on with each question.
+    /// Frames that its counter goes on with each question; in lockstep with each Go.
     pub pace: u32,
 }
 
@@ -45,15 +47,27 @@ impl Device {
         let Description { width, height, words, fingerprint, .. } = panel;
         let status =
             Status { frame: 1000, fingerprint, width, height, words, accepted: u32::MAX - 5, ..Status::default() };
-        Self { panel, memory: memory::<P>(&[]), status, stamps: Vec::new(), pace: 3 }
+        let empty = memory::<P>(&[]);
+        Self { panel, memory: empty.clone(), empty, status, stamps: Vec::new(), pace: 3 }
     }
 
     /// Does what a frame says, and returns the answer.
     fn take(&mut self, frame: &Frame<'_>) -> Option<Frame<'static>> {
         match frame {
             Frame::Hello => {
-                self.status.frame = self.status.frame.wrapping_add(self.pace);
+                if !self.status.lockstep {
+                    self.status.frame = self.status.frame.wrapping_add(self.pace);
+                }
                 Some(Frame::Status(self.status))
+            }
+            Frame::Scene { number: NO_SCENE } => {
+                self.status.scene = NO_SCENE;
+                self.memory.clone_from(&self.empty);
+                None
+            }
+            Frame::Go if self.status.lockstep => {
+                self.status.frame = self.status.frame.wrapping_add(self.pace);
+                Some(Frame::Shown { frame: self.status.frame, hash: 0 })
             }
             Frame::Galpixels(galpixels) => {
                 match galpixels.stored(&self.panel) {
