@@ -209,7 +209,7 @@ step_cost() {
         files+=("target/cost/$target.csv")
     done
     for run in "${runs[@]}"; do wait "$run"; done
-    cargo run --locked --quiet -p galpix-check -- cost "${write_cost[@]}" "${files[@]}"
+    cargo run --locked --quiet -p galpix-check -- cost ${write_cost[@]+"${write_cost[@]}"} "${files[@]}"
 }
 
 # All states of a tiny budget, on the processors and on the host: the same hash.
