@@ -3,7 +3,7 @@
 //! The passes of [`crate::sweep`] and [`crate::fill`] skip what a picture does not need. Those here do the same for every
 //! cell of every picture and decide by masks, all ones or 0, what of it is kept: the same words are read and written in every
 //! frame of a grid, layout and budget with the same settings, whatever the map holds, only in another order. Both give the
-//! same bits: map, winners, edges, tally. [`crate::edge`] has the same work in both modes.
+//! same bits: map, winners, edges, tally. The edge map is made without looking for what is of one depth.
 //!
 //! What is out of place is read and written in place and masked out: a galpixel that leaves the map meets the first cell, a
 //! neighbour beyond the border is the cell itself.

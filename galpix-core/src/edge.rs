@@ -91,6 +91,12 @@ pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32
     count
 }
 
+/// [`mark`] with the same work for every picture.
+pub(crate) fn mark_all<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32, edges: &mut [u32]) -> u32 {
+    // With vector registers the work is the same anyway.
+    if VECTORS { mark(front, threshold, edges) } else { single::mark_all(front, threshold, edges) }
+}
+
 /// The flags of up to [`RUN`] cells, the first in the lowest bit, and how many are set. `places`: the first cell, and its neighbours to the
 /// left, right, above and below.
 #[inline(always)]

@@ -161,7 +161,11 @@ pub fn step<L: Layout, B: Budget<L>>(
     frame: u32,
 ) -> Tally {
     let surfaces = settings.rung.tells_surfaces() && !scratch.edges.is_empty();
-    let edges = if surfaces { edge::mark(front, settings.edge_threshold, scratch.edges) } else { 0 };
+    let edges = match settings.work {
+        _ if !surfaces => 0,
+        Work::Skipping => edge::mark(front, settings.edge_threshold, scratch.edges),
+        Work::Constant => edge::mark_all(front, settings.edge_threshold, scratch.edges),
+    };
     let (winners, rounding, rung, reach) = (&mut *scratch.winners, settings.rounding, settings.rung, settings.reach);
     let mut tally = match settings.work {
         Work::Skipping => sweep(front, back, winners, rounding, frame),

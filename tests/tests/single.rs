@@ -31,6 +31,7 @@ fn traces<L: Layout, B: Budget<L>>(
 ) -> Vec<Trace> {
     let cells = shape.cells() as usize;
     let (mut winners, mut edges) = (vec![7; if tells { cells } else { 0 }], vec![7; cells.div_ceil(32)]);
+    let mut all = edges.clone();
     let (rounding, threshold) = (settings.rounding, settings.edge_threshold);
     with_maps::<L, B, _>(shape, budget, Some(content), |mut front, mut back| {
         // A frame counter that wraps.
@@ -47,6 +48,8 @@ fn traces<L: Layout, B: Budget<L>>(
                         sweep::single::sweep(&front, &mut back, &mut winners, rounding, frame),
                     ),
                 };
+                let again = edge::single::mark_all(&front, threshold, &mut all);
+                assert!(again == marked && all == edges, "the same work for all pictures marks other edges");
                 tally.edges = marked;
                 fill::fill(&front, &mut back, &mut winners, &edges, settings.rung, settings.reach, &mut tally);
                 std::mem::swap(&mut front, &mut back);

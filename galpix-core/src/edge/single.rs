@@ -19,6 +19,20 @@ const LARGEST: u32 = (1 << 30) - 1;
 ///
 /// Strip by strip of a word's width, down the rows: so each row of a strip is looked at once for being of one depth.
 pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32, edges: &mut [u32]) -> u32 {
+    mark_strips::<L, B, true>(front, threshold, edges)
+}
+
+/// [`mark`] with the same work for every picture.
+pub fn mark_all<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32, edges: &mut [u32]) -> u32 {
+    mark_strips::<L, B, false>(front, threshold, edges)
+}
+
+/// `GLANCES`: whether what is of one depth is looked for, and left out.
+fn mark_strips<L: Layout, B: Budget<L>, const GLANCES: bool>(
+    front: &Galpixmap<'_, L, B>,
+    threshold: u32,
+    edges: &mut [u32],
+) -> u32 {
     edges.fill(0);
     let grid = *front.grid();
     let threshold = threshold.min(LARGEST) as i32;
@@ -28,11 +42,11 @@ pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: u32
         let mut rows = grid.starts().iter().copied().peekable();
         // What lies beyond the map is like the row itself.
         let mut up = Strip { start: 0, key: None };
-        let mut row = rows.next().map_or(up, |row| Strip::of(front, row + x, cells));
+        let mut row = rows.next().map_or(up, |row| Strip::of::<L, B, GLANCES>(front, row + x, cells));
         up = row;
         loop {
             let next = rows.next();
-            let down = next.map_or(row, |down| Strip::of(front, down + x, cells));
+            let down = next.map_or(row, |down| Strip::of::<L, B, GLANCES>(front, down + x, cells));
             count += row.mark(front, [up, down], (x, cells), threshold, edges);
             (up, row) = (row, down);
             if next.is_none() {
@@ -55,7 +69,10 @@ struct Strip {
 
 impl Strip {
     #[inline(always)]
-    fn of<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, start: u32, cells: u32) -> Self {
+    fn of<L: Layout, B: Budget<L>, const GLANCES: bool>(front: &Galpixmap<'_, L, B>, start: u32, cells: u32) -> Self {
+        if !GLANCES {
+            return Self { start, key: None };
+        }
         let key = front.key_at(start).filter(|&key| front.class_of(key) == 0);
         let even = key.is_some() && is_even(front, start, cells.min(GLANCE)) && is_even(front, start, cells);
         Self { start, key: key.filter(|_| even) }
