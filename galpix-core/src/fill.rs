@@ -182,8 +182,7 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
 
     fn hole(&mut self, row: u32, x: u32, y: i32, round: u32, last: bool) {
         let cell = row + x;
-        let tells = self.rung.tells_surfaces() && !self.winners.is_empty();
-        let bullet = if tells { self.bullet(x as i32, y, round) } else { None };
+        let bullet = if self.rung.tells_surfaces() { self.bullet(x as i32, y, round) } else { None };
         let (words, winner) = match bullet {
             Some(words) => (words, FILLED + round),
             None if last => (self.unobscured(row, x), NOBODY),
@@ -202,8 +201,7 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
     fn beside(&mut self, row: u32, x: u32) -> Option<Words> {
         let width = self.back.grid().width();
         if self.right <= x {
-            let taken = |x: &u32| self.back.class(row + x) != Class::Empty;
-            self.right = (x + 1..width).find(taken).unwrap_or(width);
+            self.right = x + 1 + self.back.empties((row + x + 1) as usize..(row + width) as usize);
         }
         let left = self.left.and_then(|cell| self.back.words_at(cell));
         let right = if self.right < width { self.back.words_at(row + self.right) } else { None };
@@ -244,6 +242,9 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
 
     /// The mean of the neighbours that lie inside a surface, if there are any.
     fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
+        if self.winners.is_empty() {
+            return None;
+        }
         let inside = |dx: i32, dy: i32| self.inside(x + dx, y + dy, round);
         let vacant = |dx: i32, dy: i32| self.vacant(x + dx, y + dy, round);
         self.mean(inside(-1, 0), inside(1, 0), inside(0, -1), inside(0, 1)).or_else(|| {

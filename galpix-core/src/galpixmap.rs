@@ -214,6 +214,15 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         any >> self.record().class().shift >> 1 & 1 != 0
     }
 
+    /// How many of some cells are empty, from the first on up to one that is not.
+    #[inline(never)]
+    pub(crate) fn empties(&self, cells: Range<usize>) -> u32 {
+        let (word, _) = self.record().class().words();
+        let class = self.record().class().extract();
+        let cells = self.planes[word].get(cells).unwrap_or_default();
+        cells.iter().take_while(|&&word| class.unsigned(word, word) == Class::Empty as u32).count() as u32
+    }
+
     /// The class that a key holds.
     #[inline(always)]
     pub(crate) fn class_of(&self, key: u32) -> u32 {

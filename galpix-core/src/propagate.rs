@@ -157,13 +157,13 @@ pub(crate) fn step_luminosity<L: Layout>(record: &Record, words: &mut Words) {
     record.colour().set(words, L::Colour::brightened(colour, level >> record.luminosity_frac));
 }
 
-/// A step in x (0) or y (1) of a galpixel that is expected to move by `moved` cells: whether it does, and its velocity stays
-/// in its field. If not, the words hold rubbish.
+/// A step in x (0) or y (1) of a galpixel that is expected in a cell, `lowest` being the lowest position in it: whether it gets
+/// there, and its velocity stays in its field. If not, the words hold rubbish.
 #[inline(always)]
 pub(crate) fn plane_along<L: Layout, const COMPONENT: usize>(
     record: &Record,
     threshold: i32,
-    moved: i32,
+    lowest: i32,
     words: &mut Words,
 ) -> bool {
     let scale = &record.scales[COMPONENT];
@@ -175,9 +175,7 @@ pub(crate) fn plane_along<L: Layout, const COMPONENT: usize>(
     let position = offset.signed(words) + (step << scale.up);
     offset.set(words, position as u32);
     // Whether `snap` gives what is expected, in one comparison.
-    let half = (1 << scale.position_frac) >> 1;
-    let within = position.wrapping_sub((moved << scale.position_frac) - half);
-    (within as u32) < 1 << scale.position_frac
+    (position.wrapping_sub(lowest) as u32) < 1 << scale.position_frac
 }
 
 /// A step in depth: whether depth and velocity stay in their fields. If not, the words hold rubbish.

@@ -95,7 +95,8 @@ struct Stretch {
     cell: u32,
     /// How many there are at most.
     most: u32,
-    moved: [i32; 2],
+    /// The lowest positions in x and y that are in the cell to which they go.
+    lowest: [i32; 2],
 }
 
 /// The stretch that may begin with the galpixel at `source`; nothing if that leaves the map.
@@ -113,7 +114,12 @@ fn stretch<L: Layout, B: Budget<L>>(
     let moved = [step.dx, step.dy];
     let to_x = x as i32 + moved[0];
     let cell = back.grid().cell(to_x, y + moved[1])?;
-    Some(Stretch { source, cell, most: width - x.max(to_x as u32), moved })
+    let lowest = |component: usize| {
+        let frac = front.record().scales[component].position_frac;
+        (moved[component] << frac) - ((1 << frac) >> 1)
+    };
+    let lowest = [lowest(0), lowest(1)];
+    Some(Stretch { source, cell, most: width - x.max(to_x as u32), lowest })
 }
 
 /// The block for each word, one after the other: what a record does not have falls away.
@@ -171,7 +177,7 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
             }
         }
     }
-    let (thresholds, moved) = (*thresholds, stretch.moved);
+    let (thresholds, lowest) = (*thresholds, stretch.lowest);
     let mut lane = 0;
     while lane < count {
         let mut words = [0; MAX_WORDS];
@@ -190,10 +196,10 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
         }
         let mut along = true;
         if (PART == X || PART == ALL) && L::LANES.velocity {
-            along = along && plane_along::<L, 0>(&record, thresholds[0], moved[0], &mut words);
+            along = along && plane_along::<L, 0>(&record, thresholds[0], lowest[0], &mut words);
         }
         if (PART == Y || PART == ALL) && L::LANES.velocity {
-            along = along && plane_along::<L, 1>(&record, thresholds[1], moved[1], &mut words);
+            along = along && plane_along::<L, 1>(&record, thresholds[1], lowest[1], &mut words);
         }
         if (PART == DEPTH || PART == ALL) && L::LANES.depth_motion {
             along = along && depth_within::<L>(&record, thresholds[2], &mut words);
