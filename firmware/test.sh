@@ -125,6 +125,7 @@ step_clippy() {
     missing="$(absent "$OLED_TARGET" "$LCD_TARGET")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
     cargo clippy --locked --quiet -p galpix-link -p galpix-controller -p galpix-kernels -- -D warnings
+    on clippy galpix-uart "-- -D warnings" "$OLED_TARGET"
     on clippy lm3s6965evb "-- -D warnings" "$OLED_TARGET"
     on clippy lm3s6965evb "--no-default-features --features probe -- -D warnings" "$OLED_TARGET"
     on clippy vexpress-a9 "-- -D warnings" "$LCD_TARGET"

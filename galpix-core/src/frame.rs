@@ -78,6 +78,17 @@ pub struct Scratch<'s> {
     pub edges: &'s mut [u32],
 }
 
+impl Scratch<'_> {
+    /// Whether each of the two is empty or has the words that are needed.
+    pub(crate) fn check(&self, winners: u32, edges: usize) -> Result<(), SetupError> {
+        let enough = |plane, have: usize, need: usize| {
+            if have == 0 || have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
+        };
+        enough("winner map", self.winners.len(), winners as usize)?;
+        enough("edge map", self.edges.len(), edges)
+    }
+}
+
 /// Two maps that take turns: the front one is shown while the back one is made from it.
 #[derive(Debug)]
 pub struct Controller<'p, L, B> {
@@ -99,11 +110,7 @@ impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
         if front.grid() != back.grid() {
             return Err(SetupError::GridsDiffer);
         }
-        let check = |plane, have: usize, need: usize| {
-            if have == 0 || have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
-        };
-        check("winner map", scratch.winners.len(), front.grid().cells() as usize)?;
-        check("edge map", scratch.edges.len(), edge::words(front.grid()))?;
+        scratch.check(front.grid().cells(), edge::words(front.grid()))?;
         Ok(Self { front, back, scratch, frame: 0 })
     }
 

@@ -82,10 +82,6 @@ impl<'p, L: Layout, B: Budget<L>> Rolling<'p, L, B> {
         if (grid.width(), grid.height(), grid.wings()) != (rolls.width(), rolls.height(), rolls.wings()) {
             return Err(SetupError::GridsDiffer);
         }
-        let check = |plane, have: usize, need: u32| {
-            let need = need as usize;
-            if have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
-        };
         // The rows that the window has, found without a division.
         let again = (1..grid.height()).find(|&y| rolls.row(y as i32) == Some(0));
         let have = again.unwrap_or(grid.height());
@@ -95,12 +91,7 @@ impl<'p, L: Layout, B: Budget<L>> Rolling<'p, L, B> {
             let cells = grid.row(need as i32).unwrap_or(grid.cells());
             return Err(SetupError::TooShort { plane: "window", need: cells as usize, have: rolls.cells() as usize });
         }
-        if !scratch.winners.is_empty() {
-            check("winner map", scratch.winners.len(), rolls.cells())?;
-        }
-        if !scratch.edges.is_empty() {
-            check("edge map", scratch.edges.len(), edge::words(&grid) as u32)?;
-        }
+        scratch.check(rolls.cells(), edge::words(&grid))?;
         let rounds = if again.is_none() { u32::MAX } else { have - (reach << 1) - 2 };
         Ok(Self { map, window, scratch, reach, rounds, frame: 0 })
     }

@@ -88,21 +88,6 @@ where
         session
     }
 
-    /// The maps.
-    pub const fn maps(&self) -> &M {
-        &self.maps
-    }
-
-    /// The board.
-    pub const fn board(&self) -> &B {
-        &self.board
-    }
-
-    /// The board.
-    pub const fn board_mut(&mut self) -> &mut B {
-        &mut self.board
-    }
-
     /// How the controller is.
     pub fn status(&self) -> Status {
         let (stack_used, stack) = self.board.stack();
@@ -162,8 +147,7 @@ where
             let (mut begin, mut frames) = (self.board.ticks(), 0);
             while self.line.status.lockstep && !self.line.go {
                 self.listen(1);
-                // A clock that is read beside its own interrupt may seem to go back: then it is not yet time.
-                if self.board.ticks().wrapping_sub(begin) as i32 >= B::TICKS_PER_FRAME as i32 {
+                if self.board.ticks().wrapping_sub(begin) >= B::TICKS_PER_FRAME {
                     begin = begin.wrapping_add(B::TICKS_PER_FRAME);
                     frames += 1;
                     // A host that has gone away does not stop the picture for ever.

@@ -131,7 +131,7 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
         let winner = self.winner(place);
         let filled = opaque(negative(winner as i32));
         let on_edge = (on_edge(self.edges, winner & !filled) as u32).wrapping_neg();
-        let galpixel = below(self.back.class(place.cell) as u32, 1);
+        let galpixel = opaque(below(self.back.class(place.cell) as u32, 1));
         galpixel & choose(filled, self.filled_before(winner), !on_edge)
     }
 

@@ -39,19 +39,14 @@ fn mark_strips<L: Layout, B: Budget<L>, const GLANCES: bool>(
     let (mut count, mut x) = (0, 0);
     while x < grid.width() {
         let cells = (grid.width() - x).min(WORD);
-        let mut rows = grid.starts().iter().copied().peekable();
+        let mut rows = grid.starts().iter().map(|&row| Strip::of::<L, B, GLANCES>(front, row + x, cells));
         // What lies beyond the map is like the row itself.
-        let mut up = Strip { start: 0, key: None };
-        let mut row = rows.next().map_or(up, |row| Strip::of::<L, B, GLANCES>(front, row + x, cells));
-        up = row;
-        loop {
-            let next = rows.next();
-            let down = next.map_or(row, |down| Strip::of::<L, B, GLANCES>(front, down + x, cells));
-            count += row.mark(front, [up, down], (x, cells), threshold, edges);
+        let (mut up, mut row) = (None, rows.next());
+        while let Some(strip) = row {
+            let down = rows.next();
+            let beside = [up.unwrap_or(strip), down.unwrap_or(strip)];
+            count += strip.mark(front, beside, (x, cells), threshold, edges);
             (up, row) = (row, down);
-            if next.is_none() {
-                break;
-            }
         }
         x += cells;
     }

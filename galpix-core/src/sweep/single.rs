@@ -1,9 +1,9 @@
 //! The sweep for processors without vector registers, where a buffer between the two stages costs more than it saves.
 //!
 //! Neighbours mostly move alike. A **stretch** is a run of galpixels and debris with one displacement, whose fields do not
-//! stray and whose new cells are still empty. It is taken straight from the old map into the new one, component by component:
-//! a loop over the cells for x and y, and where these are in words of their own, a second one for class and depth, so that
-//! what a loop needs stays in registers. A loop that meets a galpixel of another kind ends the stretch there. All else
+//! stray and whose new cells are still empty. It is taken straight from the old map into the new one, part by part: a loop
+//! over its cells for x, one for y, one for class and depth, so that what a loop needs stays in registers; one loop for all
+//! three where class or depth share a word with x or y. A loop that meets a galpixel of another kind ends the stretch there. All else
 //! goes galpixel by galpixel.
 
 use core::ops::Range;
@@ -183,13 +183,13 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
         let mut words = [0; MAX_WORDS];
         each_word!(word => {
             if set >> word & 1 != 0 {
-                words[word] = if written >> word & 1 != 0 { targets[word][lane] } else { sources[word][lane] };
+                words[word] = if written >> word & 1 != 0 { at(targets[word], lane) } else { at(sources[word], lane) };
             }
         });
         if looks {
             // The lower bit of the class: what was just unobscured and what is empty has it. Of what a sweep puts into
             // cells nothing has, so that it tells a cell that is empty.
-            let open = targets[class_word][lane] & !sources[class_word][lane];
+            let open = at(targets[class_word], lane) & !at(sources[class_word], lane);
             if open >> record.class().shift & 1 == 0 {
                 break;
             }
@@ -208,13 +208,21 @@ fn pass<L: Layout, B: Budget<L>, const PART: usize>(
             break;
         }
         each_word!(word => {
-            if set >> word & 1 != 0 {
-                targets[word][lane] = words[word];
+            if set >> word & 1 != 0
+                && let Some(target) = targets[word].get_mut(lane)
+            {
+                *target = words[word];
             }
         });
         lane += 1;
     }
     lane as u32
+}
+
+/// A word of a slice that is long enough. Not every level of optimisation sees that it is, and an index would leave a panic.
+#[inline(always)]
+fn at(words: &[u32], lane: usize) -> u32 {
+    words.get(lane).copied().unwrap_or_default()
 }
 
 /// The words of all that moves in a part. The class goes with the depth.

@@ -36,6 +36,15 @@ impl Board {
         }
     }
 
+    /// Frames after which the thresholds of its rounding come again.
+    pub fn period(self) -> u32 {
+        let scales = match self {
+            Self::Lm3s6965evb => Oled::RECORD.scales,
+            Self::VexpressA9 => Lcd::RECORD.scales,
+        };
+        scales.iter().map(|scale| 1 << scale.down).max().unwrap_or(1)
+    }
+
     /// Its program.
     pub fn program(self, firmware: &Path) -> PathBuf {
         let target = match self {

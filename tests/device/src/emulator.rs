@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_secs(120);
 /// A running board.
 pub struct Emulator {
     board: Board,
-    child: Child,
+    child: Process,
     folder: TempDir,
     commands: BufReader<UnixStream>,
     /// The serial line.
@@ -73,40 +73,9 @@ impl Emulator {
         let child = command.spawn().map_err(|error| {
             Failure::new(format!("qemu-system-arm cannot be started ({error}): install qemu-system-arm"))
         })?;
-        let mut child = Some(child);
-        let mut accept = |listener: UnixListener| -> Result<UnixStream, Failure> {
-            listener.set_nonblocking(true)?;
-            let begin = Instant::now();
-            loop {
-                match listener.accept() {
-                    Ok((stream, _)) => {
-                        stream.set_nonblocking(false)?;
-                        return Ok(stream);
-                    }
-                    Err(_) if begin.elapsed() < PATIENCE => {
-                        if let Some(Ok(Some(status))) = child.as_mut().map(Child::try_wait) {
-                            return Err(Failure::new(format!(
-                                "{}: the emulator ended at once, {status}",
-                                board.name()
-                            )));
-                        }
-                        std::thread::sleep(Duration::from_millis(5));
-                    }
-                    Err(error) => return Err(error.into()),
-                }
-            }
-        };
-        let serial = accept(serial_listener);
-        let commands = serial.and_then(|serial| Ok((serial, accept(listener)?)));
-        let mut child = child.take().ok_or_else(|| Failure::new("the emulator is gone"))?;
-        let (serial, commands) = match commands {
-            Ok(both) => both,
-            Err(failure) => {
-                let _ = child.kill();
-                let _ = child.wait();
-                return Err(failure);
-            }
-        };
+        let mut child = Process(child);
+        let serial = accept(&serial_listener, &mut child, board)?;
+        let commands = accept(&listener, &mut child, board)?;
         let mut emulator =
             Self { board, child, folder, commands: BufReader::new(commands), line: Line::new(serial, board) };
         emulator.read_line()?;
@@ -154,13 +123,37 @@ impl Emulator {
 
     /// Whether the program still runs.
     pub fn runs(&mut self) -> bool {
-        matches!(self.child.try_wait(), Ok(None))
+        matches!(self.child.0.try_wait(), Ok(None))
     }
 }
 
-impl Drop for Emulator {
+/// A process that ends with its owner.
+struct Process(Child);
+
+impl Drop for Process {
     fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// Waits until the emulator connects.
+fn accept(listener: &UnixListener, emulator: &mut Process, board: Board) -> Result<UnixStream, Failure> {
+    listener.set_nonblocking(true)?;
+    let begin = Instant::now();
+    loop {
+        match listener.accept() {
+            Ok((stream, _)) => {
+                stream.set_nonblocking(false)?;
+                return Ok(stream);
+            }
+            Err(_) if begin.elapsed() < PATIENCE => {
+                if let Ok(Some(status)) = emulator.0.try_wait() {
+                    return Err(Failure::new(format!("{}: the emulator ended at once, {status}", board.name())));
+                }
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            Err(error) => return Err(error.into()),
+        }
     }
 }

@@ -51,13 +51,11 @@ impl Line {
         }
         self.stream.set_read_timeout(Some(PATIENCE))?;
         // The answers to what was asked more than once come before that to this.
-        loop {
-            let status = self.status()?;
-            if self.waiting.is_empty() {
-                let _ = status;
-                return Ok(());
-            }
+        self.status()?;
+        while !self.waiting.is_empty() {
+            self.status()?;
         }
+        Ok(())
     }
 
     /// Sends a frame.

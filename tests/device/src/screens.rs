@@ -39,6 +39,7 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
         for (number, scene) in (0..).zip(&scene::ALL) {
             // The overlay in every second scene: it must neither be missing nor leave anything behind.
             let overlay = number % 2 == 1;
+            align(&mut emulator, board)?;
             emulator.line.send(&Frame::Overlay { on: overlay })?;
             emulator.line.send(&Frame::Scene { number })?;
             let first = emulator.line.status()?.frame;
@@ -49,6 +50,7 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
             }
             println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), scene.name);
         }
+        align(&mut emulator, board)?;
         let (first, words) = sent(&mut emulator, board)?;
         for (age, expected) in (1..).zip(&expected::frames(board, Shows::Sent(&words), first, frames, false)?) {
             compare(&mut emulator, board, SENT.1, expected)?;
@@ -105,6 +107,17 @@ fn sent(emulator: &mut Emulator, board: Board) -> Result<(u32, Vec<u32>), Failur
 pub fn lockstep(emulator: &mut Emulator) -> Result<(), Failure> {
     emulator.line.send(&Frame::Lockstep { on: true })?;
     emulator.line.shown()?;
+    Ok(())
+}
+
+/// Lets the board make frames until its rounding begins anew: else the pictures, and so the kept hashes, would depend on how
+/// many frames it had made before it was first spoken to.
+fn align(emulator: &mut Emulator, board: Board) -> Result<(), Failure> {
+    let mut frame = emulator.line.status()?.frame;
+    while frame & (board.period() - 1) != 0 {
+        emulator.line.send(&Frame::Go)?;
+        (frame, _) = emulator.line.shown()?;
+    }
     Ok(())
 }
 

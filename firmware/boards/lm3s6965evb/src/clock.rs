@@ -51,7 +51,9 @@ pub fn ticks() -> u32 {
         // The timer has begun anew, and its interrupt waits: the count is one behind.
         let pending = u32::from(SCB::is_pendst_pending());
         if VSYNCS.load(Ordering::Relaxed) == vsyncs && SYST::get_current() <= left {
-            return (vsyncs + pending).wrapping_mul(TICKS_PER_FRAME).wrapping_add(TICKS_PER_FRAME - left);
+            // The timer counts down, and is 0 where it begins anew.
+            let since = if left == 0 { 0 } else { TICKS_PER_FRAME - left };
+            return vsyncs.wrapping_add(pending).wrapping_mul(TICKS_PER_FRAME).wrapping_add(since);
         }
     }
 }

@@ -71,11 +71,11 @@ impl Board for Evaluation {
     }
 
     fn receive(&mut self) -> Option<u8> {
-        uart::receive()
+        uart::LINE.receive()
     }
 
     fn send(&mut self, byte: u8) {
-        uart::send(byte);
+        uart::LINE.send(byte);
     }
 }
 

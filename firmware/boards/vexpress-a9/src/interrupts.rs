@@ -39,7 +39,7 @@ fn interrupt() {
             LCD_ICR.write(0xc);
             VSYNCS.store(VSYNCS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
         }
-        UART => uart::take(),
+        UART => uart::LINE.take(),
         _ => {}
     }
     GICC_EOIR.write(taken);

@@ -62,11 +62,11 @@ impl Board for Express {
     }
 
     fn receive(&mut self) -> Option<u8> {
-        uart::receive()
+        uart::LINE.receive()
     }
 
     fn send(&mut self, byte: u8) {
-        uart::send(byte);
+        uart::LINE.send(byte);
     }
 }
 

@@ -65,18 +65,12 @@ pub fn spread(run: &Table) -> Vec<Spread<'_>> {
     spreads
 }
 
-/// Per cent by which constant work may spread. Armv6-M has no conditional instructions: where the others choose between two
-/// numbers it jumps, and one of the two ways is longer.
-fn most(target: &str) -> u64 {
-    if target.starts_with("thumbv6m") { 2 * MOST_SPREAD } else { MOST_SPREAD }
-}
-
 /// Where the instructions of constant work depend on the picture: a line for each.
 pub fn spreads(run: &Table) -> Vec<String> {
-    let too_far = |spread: &Spread<'_>| (spread.most - spread.least) * 100 > spread.least * most(spread.what[0]);
+    let too_far = |spread: &Spread<'_>| (spread.most - spread.least) * 100 > spread.least * MOST_SPREAD;
     let line = |spread: Spread<'_>| {
         let ([target, layout, rung], per_cent) = (spread.what, spread.per_cent());
-        let far = format!("{per_cent:.2} % over pictures, more than {} %", most(target));
+        let far = format!("{per_cent:.2} % over pictures, more than {MOST_SPREAD} %");
         format!("{target},{layout},{rung}: constant work spreads by {far}")
     };
     spread(run).into_iter().filter(too_far).map(line).collect()
