@@ -6,6 +6,11 @@ use crate::error::SetupError;
 use crate::fill::{Rung, fill};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
+use crate::inpaint::map::{OfGalpixel, Uncovered};
+use crate::inpaint::push_pull::{self, Rule};
+use crate::inpaint::pyramid::{DEPTH_BITS, Pyramid};
+use crate::inpaint::quads::lay_background;
+use crate::inpaint::validity::Gamma;
 use crate::layout::Layout;
 use crate::rounding::Rounding;
 use crate::sweep::sweep;
@@ -67,6 +72,32 @@ impl Settings {
     }
 }
 
+/// How what was just uncovered is filled after a frame, see [`crate::inpaint`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Inpainting<'m> {
+    /// How far coarser levels are needed, and what foreground is.
+    pub rule: Rule,
+    /// Whether holes get the depth of the background from stretched quads first.
+    pub quads: bool,
+    /// Where it is worth it, a bit for each cell; empty for everywhere.
+    pub mask: &'m [u32],
+}
+
+impl Inpainting<'_> {
+    /// Push-pull that tells foreground from background by depths of `depth_bits` bits, everywhere.
+    #[must_use]
+    pub const fn for_depth(depth_bits: u32, gamma: Gamma) -> Self {
+        let threshold = edge::threshold_for_depth(depth_bits) >> depth_bits.saturating_sub(DEPTH_BITS);
+        Self { rule: Rule { gamma, threshold }, quads: true, mask: &[] }
+    }
+
+    /// The classic push-pull, which knows no depth.
+    #[must_use]
+    pub const fn classic() -> Self {
+        Self { rule: Rule { gamma: Gamma::Zero, threshold: u32::MAX }, quads: false, mask: &[] }
+    }
+}
+
 /// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices. Lent to
 /// another rung, they leave out what it is for: without both no hole is a bullet hole, and without an edge map no edge is
 /// looked for or counted.
@@ -120,6 +151,27 @@ impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
         core::mem::swap(&mut self.front, &mut self.back);
         self.frame = self.frame.wrapping_add(1);
         tally
+    }
+
+    /// Fills what the last step uncovered, by push-pull: how many cells. The step must have been made with `settings`, whose rung is
+    /// [`Rung::Extend`]; with any other one there may be nothing to fill.
+    ///
+    /// Of a pyramid of another size than the map's, only what lies within both is filled.
+    pub fn inpaint<V: OfGalpixel<L>>(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32 {
+        if inpainting.quads {
+            let frame = self.frame.wrapping_sub(1);
+            lay_background(&self.back, &mut self.front, self.scratch.edges, settings.rounding, frame);
+        }
+        let mut picture = Uncovered::<L, B, V>::new(&mut self.front, inpainting.mask);
+        match settings.work {
+            Work::Skipping => push_pull::sparse(&mut picture, pyramid, &inpainting.rule),
+            Work::Constant => push_pull::dense(&mut picture, pyramid, &inpainting.rule),
+        }
     }
 
     /// The map that is shown.

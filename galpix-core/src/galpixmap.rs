@@ -214,6 +214,16 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         any >> self.record().class().shift >> 1 & 1 != 0
     }
 
+    /// Whether any of `count` cells from `cell` on was just unobscured.
+    #[inline(always)]
+    pub(crate) fn any_just_unobscured(&self, cell: u32, count: u32) -> bool {
+        const { assert!(Class::JustUnobscured as u32 == 1, "the only class with the lower bit alone") }
+        let (word, _) = self.record().class().words();
+        let cells = self.planes[word].get(cell as usize..(cell + count) as usize).unwrap_or_default();
+        let any = cells.iter().fold(0, |any, word| any | word & !(word >> 1));
+        any >> self.record().class().shift & 1 != 0
+    }
+
     /// How many of some cells are empty, from the first on up to one that is not.
     #[inline(never)]
     pub(crate) fn empties(&self, cells: Range<usize>) -> u32 {

@@ -64,6 +64,7 @@ pub mod galpixel;
 pub mod galpixmap;
 pub mod graft;
 pub mod grid;
+pub mod inpaint;
 pub mod layout;
 pub mod propagate;
 pub mod record;

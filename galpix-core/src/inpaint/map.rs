@@ -1,0 +1,136 @@
+//! A galpixmap as a picture with holes.
+
+use core::marker::PhantomData;
+
+use super::paint::{Moving, Tint};
+use super::push_pull::{Picture, Value};
+use super::pyramid::{DEPTH_BITS, Known};
+use super::validity::FULL;
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::record::Words;
+
+/// Cells that are looked at once.
+const RUN: u32 = 32;
+
+/// What of a galpixel is filled in.
+pub trait OfGalpixel<L: Layout>: Value {
+    /// What a cell with these words holds.
+    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self;
+
+    /// The words of a hole that held `words` and gets this.
+    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words;
+}
+
+/// The colour alone: the motion stays the one that the fill ladder gave.
+impl<L: Layout> OfGalpixel<L> for Tint {
+    #[inline(always)]
+    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
+        Self::of::<L::Colour>(map.colour(cell))
+    }
+
+    #[inline(always)]
+    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, mut words: Words) -> Words {
+        map.record().colour().set(&mut words, self.colour::<L::Colour>());
+        words
+    }
+}
+
+/// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
+impl<L: Layout> OfGalpixel<L> for Moving {
+    #[inline(always)]
+    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
+        Self { tint: OfGalpixel::<L>::of(map, cell), source: cell }
+    }
+
+    #[inline(always)]
+    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
+        let record = map.record();
+        let mut moving = map.words_at(self.source).unwrap_or(words);
+        for field in [record.class(), record.depth()] {
+            field.set(&mut moving, field.unsigned(&words));
+        }
+        OfGalpixel::<L>::put_into(self.tint, map, moving)
+    }
+}
+
+/// A galpixmap whose cells of class just unobscured are its holes.
+#[derive(Debug)]
+pub struct Uncovered<'m, 'p, L, B, V> {
+    map: &'m mut Galpixmap<'p, L, B>,
+    /// A bit for each cell; empty for all of them.
+    mask: &'m [u32],
+    value: PhantomData<V>,
+}
+
+impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, V> {
+    /// The holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for all
+    /// of them, and beyond the end of one no hole is filled.
+    pub const fn new(map: &'m mut Galpixmap<'p, L, B>, mask: &'m [u32]) -> Self {
+        Self { map, mask, value: PhantomData }
+    }
+
+    #[inline(always)]
+    fn is_asked_for(&self, cell: u32) -> bool {
+        self.mask.is_empty()
+            || self.mask.get((cell / u32::BITS) as usize).is_some_and(|word| word >> (cell % u32::BITS) & 1 != 0)
+    }
+}
+
+/// The depth of a galpixel as a pyramid has it.
+#[inline(always)]
+pub(super) fn pyramid_depth(depth: u32, bits: u32) -> u32 {
+    depth >> bits.saturating_sub(DEPTH_BITS)
+}
+
+impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L, B, V> {
+    type Value = V;
+
+    fn size(&self) -> [u32; 2] {
+        [self.map.grid().width(), self.map.grid().height()]
+    }
+
+    #[inline(always)]
+    fn known(&self, x: u32, y: u32) -> Known<V> {
+        let Some(cell) = self.map.grid().cell(x as i32, y as i32) else { return Known::default() };
+        let key = self.map.key_at(cell).unwrap_or(u32::MAX);
+        let bits = u32::from(self.map.record().depth().bits);
+        let class = self.map.class_of(key);
+        if class == Class::Empty as u32 {
+            return Known::default();
+        }
+        let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
+        if class == Class::Galpixel as u32 {
+            Known { validity: FULL, depth, value: V::of(self.map, cell) }
+        } else {
+            Known { validity: 0, depth, value: V::default() }
+        }
+    }
+
+    fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<V>) -> u32 {
+        let grid = *self.map.grid();
+        let mut filled = 0;
+        for (y, &row) in (0..).zip(grid.starts()) {
+            let mut x = 0;
+            while x < grid.width() {
+                let run = (grid.width() - x).min(RUN);
+                if self.map.any_just_unobscured(row + x, run) {
+                    for x in x..x + run {
+                        let cell = row + x;
+                        if self.map.class(cell) != Class::JustUnobscured || !self.is_asked_for(cell) {
+                            continue;
+                        }
+                        let Some(value) = value(self, x, y) else { continue };
+                        let words = self.map.words_at(cell).unwrap_or_default();
+                        let words = value.put_into(self.map, words);
+                        self.map.put(cell, &words);
+                        filled += 1;
+                    }
+                }
+                x += run;
+            }
+        }
+        filled
+    }
+}

@@ -1,0 +1,203 @@
+//! Stretched quads: the depth of the background in what was uncovered (section 3.1 of the paper).
+//!
+//! Four neighbours of the map before are the corners of a quad. Where it is torn, for its corners go different ways, it
+//! connects foreground and background, and what opens between them has the farthest of its depths. The paper draws such quads with the
+//! others into a depth buffer that is *re-partitioned*, equation (1), so that one depth test does all: what is known is
+//! never overwritten, and of two stretched quads the farther one is seen. Here the known galpixels are in the map already, with
+//! their depths, so that only the stretched quads have to be drawn, and only holes look.
+//!
+//! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is a bullet
+//! hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
+
+use crate::edge::on_edge;
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::propagate::{advance, thresholds};
+use crate::rounding::Rounding;
+
+/// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
+/// what lies between them; without a limit a hostile map would take for ever.
+pub const LARGEST: i32 = 64;
+
+/// A depth of `bits` bits in the re-partitioned range of `bits + 1` bits, equation (1): known surfaces in the nearer half, stretched
+/// quads in the farther one and turned round, so that the smaller number is what is seen.
+#[inline(always)]
+#[must_use]
+pub const fn partitioned(depth: u32, stretched: bool, bits: u32) -> u32 {
+    if stretched { (2 << bits) - 1 - depth } else { depth }
+}
+
+/// The depth that [`partitioned`] was given, and whether it was a stretched quad's.
+#[inline(always)]
+#[must_use]
+pub const fn unpartitioned(key: u32, bits: u32) -> (u32, bool) {
+    if key >> bits == 0 { (key, false) } else { ((2 << bits) - 1 - key, true) }
+}
+
+/// A corner of a quad after the step.
+#[derive(Clone, Copy)]
+struct Corner {
+    x: i32,
+    y: i32,
+    depth: u32,
+}
+
+/// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
+/// that the ladder gave them is farther: of how many it changed the depth.
+///
+/// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
+pub fn lay_background<L: Layout, B: Budget<L>>(
+    before: &Galpixmap<'_, L, B>,
+    map: &mut Galpixmap<'_, L, B>,
+    edges: &[u32],
+    rounding: Rounding,
+    frame: u32,
+) -> u32 {
+    if !L::LANES.velocity || L::LANES.depth_bits == 0 || before.grid() != map.grid() {
+        return 0;
+    }
+    let thresholds = thresholds(before.record(), rounding, frame);
+    let (width, height) = (before.grid().width(), before.grid().height());
+    let mut changed = 0;
+    for y in 0..height.saturating_sub(1) as i32 {
+        let (Some(row), Some(next)) = (before.grid().row(y), before.grid().row(y + 1)) else { continue };
+        let mut right: Option<[Option<Corner>; 2]> = None;
+        for x in 1..width {
+            let edge = [row + x - 1, row + x, next + x - 1, next + x].iter().any(|&cell| on_edge(edges, cell));
+            if !edge {
+                right = None;
+                continue;
+            }
+            let column =
+                |x: u32| [corner(before, row + x, x, y, &thresholds), corner(before, next + x, x, y + 1, &thresholds)];
+            let left = right.unwrap_or_else(|| column(x - 1));
+            let new = column(x);
+            right = Some(new);
+            if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (left, new) {
+                changed += draw([a, b, c, d], map);
+            }
+        }
+    }
+    changed
+}
+
+/// A cell of the map before as a corner; none if it is empty.
+#[inline(always)]
+fn corner<L: Layout, B: Budget<L>>(
+    before: &Galpixmap<'_, L, B>,
+    cell: u32,
+    x: u32,
+    y: i32,
+    thresholds: &[i32; 3],
+) -> Option<Corner> {
+    let mut words = before.words_at(cell)?;
+    let record = before.record();
+    if record.class().unsigned(&words) == Class::Empty as u32 {
+        return None;
+    }
+    let step = advance::<L, true>(record, thresholds, &mut words);
+    Some(Corner { x: x as i32 + step.dx, y: y + step.dy, depth: record.depth().unsigned(&words) })
+}
+
+/// Draws a quad into the holes under it, if it is stretched.
+#[inline(always)]
+fn draw<L: Layout, B: Budget<L>>(corners: [Corner; 4], map: &mut Galpixmap<'_, L, B>) -> u32 {
+    let low = corners.iter().fold((i32::MAX, i32::MAX), |low, corner| (low.0.min(corner.x), low.1.min(corner.y)));
+    let high = corners.iter().fold((i32::MIN, i32::MIN), |high, corner| (high.0.max(corner.x), high.1.max(corner.y)));
+    let (across, down) = (high.0 - low.0, high.1 - low.1);
+    // A quad that still touches all cells between its corners covers no hole.
+    if across < 2 && down < 2 || across > LARGEST || down > LARGEST {
+        return 0;
+    }
+    let depth = corners.iter().fold(0, |farthest, corner| farthest.max(corner.depth));
+    draw_holes(&corners, (low, high), depth, map)
+}
+
+#[inline(never)]
+fn draw_holes<L: Layout, B: Budget<L>>(
+    corners: &[Corner; 4],
+    (low, high): ((i32, i32), (i32, i32)),
+    depth: u32,
+    map: &mut Galpixmap<'_, L, B>,
+) -> u32 {
+    let bits = u32::from(map.record().depth().bits);
+    let key = partitioned(depth, true, bits);
+    let mut changed = 0;
+    for y in low.1..=high.1 {
+        for x in low.0..=high.0 {
+            let Some(cell) = map.grid().cell(x, y) else { continue };
+            let Some(mut words) = map.words_at(cell) else { continue };
+            let record = *map.record();
+            let hole = record.class().unsigned(&words) == Class::JustUnobscured as u32;
+            // Of a known surface nothing farther is seen: its key is in the nearer half.
+            if key < partitioned(record.depth().unsigned(&words), hole, bits) && covers(corners, x, y) {
+                record.depth().set(&mut words, unpartitioned(key, bits).0);
+                map.put(cell, &words);
+                changed += 1;
+            }
+        }
+    }
+    changed
+}
+
+/// Whether a place lies in the convex hull of four corners, its border included: in one of the four triangles that they form.
+fn covers(corners: &[Corner; 4], x: i32, y: i32) -> bool {
+    let side = |a: Corner, b: Corner| {
+        let cross = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+        cross.signum()
+    };
+    let within = |a: Corner, b: Corner, c: Corner| {
+        let sides = [side(a, b), side(b, c), side(c, a)];
+        let between = |from: i32, to: i32, at: i32| at >= from && at <= to;
+        // Corners on one line: all places on the line are on no side of it, those within the triangle's box are between them.
+        let box_x = between(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), x);
+        let box_y = between(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), y);
+        box_x && box_y && (sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0))
+    };
+    let [a, b, c, d] = *corners;
+    within(a, b, c) || within(b, d, c) || within(a, b, d) || within(a, d, c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_partitioned_range_shows_known_before_stretched_and_farther_stretched_before_nearer() {
+        const BITS: u32 = 4;
+        for (a, a_torn) in (0..16).flat_map(|depth| [(depth, false), (depth, true)]) {
+            let key = partitioned(a, a_torn, BITS);
+            assert!(key < 2 << BITS);
+            assert_eq!(unpartitioned(key, BITS), (a, a_torn));
+            for (b, b_torn) in (0..16).flat_map(|depth| [(depth, false), (depth, true)]) {
+                let seen = key < partitioned(b, b_torn, BITS);
+                let expected = match (a_torn, b_torn) {
+                    (false, false) => a < b,
+                    (false, true) => true,
+                    (true, false) => false,
+                    (true, true) => a > b,
+                };
+                assert_eq!(seen, expected, "{a} {a_torn} before {b} {b_torn}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_hull_covers_its_corners_and_what_lies_between_them() {
+        let at = |x, y| Corner { x, y, depth: 0 };
+        let quad = [at(0, 0), at(0, 1), at(5, 0), at(5, 1)];
+        for x in -1..=6 {
+            for y in -1..=2 {
+                assert_eq!(covers(&quad, x, y), (0..=5).contains(&x) && (0..=1).contains(&y), "{x} {y}");
+            }
+        }
+        // On one line.
+        let line = [at(0, 0), at(1, 1), at(4, 4), at(2, 2)];
+        assert!((0..=4).all(|i| covers(&line, i, i)));
+        assert!(!covers(&line, 5, 5) && !covers(&line, 1, 2));
+        // A corner within the triangle of the others.
+        let dart = [at(0, 0), at(1, 1), at(4, 0), at(0, 4)];
+        assert!(covers(&dart, 2, 2) && covers(&dart, 1, 0) && !covers(&dart, 3, 3));
+    }
+}
