@@ -1,0 +1,170 @@
+//! Push-pull on galpixmaps: what it touches, and what it makes of the built-in scenes.
+
+use galpix_core::edge;
+use galpix_core::fill::Rung;
+use galpix_core::frame::{Inpainting, Settings, Work};
+use galpix_core::galpixel::Profile;
+use galpix_core::galpixel::{Chosen, Class};
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::pyramid::{Cell, Pyramid};
+use galpix_core::inpaint::validity::Gamma;
+use galpix_core::layout::{Full, Layout};
+use galpix_tests::lent::{cell_words, with_controller, words};
+use galpix_tests::profiles::Paper;
+use galpix_tests::stage;
+
+const DEPTH_BITS: u32 = 16;
+
+fn settings(work: Work) -> Settings {
+    Settings {
+        rung: Rung::Extend,
+        work,
+        edge_threshold: edge::threshold_for_depth(DEPTH_BITS),
+        ..Settings::for_depth(DEPTH_BITS)
+    }
+}
+
+/// The words of each frame of a scene with inpainting, and how many cells were filled.
+fn frames<V: OfGalpixel<Full>>(
+    stage: &stage::Stage,
+    inpainting: Option<&Inpainting<'_>>,
+    work: Work,
+    count: u32,
+) -> Vec<(Vec<u32>, u32)> {
+    let budget = Chosen::<Full>::new(Paper::BITS).unwrap();
+    let content = stage.content::<Full, _>(budget, |_| {});
+    let (width, height) = (stage.shape.columns(), stage.shape.rows());
+    let mut memory = vec![Cell::<V>::default(); levels::cells(width, height)];
+    let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+    with_controller(stage.shape, budget, Some(&content), |controller| {
+        let one = |_| {
+            controller.step(&settings(work));
+            let filled =
+                inpainting.map_or(0, |inpainting| controller.inpaint(&settings(work), inpainting, &mut pyramid));
+            (words(controller.front()), filled)
+        };
+        (0..count).map(one).collect()
+    })
+}
+
+fn named(name: &str) -> stage::Stage {
+    stage::all().find(|stage| stage.scene.name() == name).unwrap()
+}
+
+#[test]
+fn sparse_and_dense_give_the_same_maps() {
+    for name in ["crossing", "pillars"] {
+        let stage = named(name);
+        for gamma in Gamma::ALL {
+            let inpainting = Inpainting::for_depth(DEPTH_BITS, gamma);
+            let sparse = frames::<Moving>(&stage, Some(&inpainting), Work::Skipping, 3);
+            assert!(sparse.iter().any(|(_, filled)| *filled > 20), "{name} has holes");
+            assert_eq!(sparse, frames::<Moving>(&stage, Some(&inpainting), Work::Constant, 3), "{name} {gamma:?}");
+        }
+    }
+}
+
+#[test]
+fn only_what_was_just_uncovered_changes() {
+    let stage = named("crossing");
+    let budget = Chosen::<Full>::new(Paper::BITS).unwrap();
+    let content = stage.content::<Full, _>(budget, |_| {});
+    let (width, height) = (stage.shape.columns(), stage.shape.rows());
+    let mut memory = vec![Cell::<Tint>::default(); levels::cells(width, height)];
+    let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+    with_controller(stage.shape, budget, Some(&content), |controller| {
+        let settings = settings(Work::Skipping);
+        for _ in 0..4 {
+            controller.step(&settings);
+            let before: Vec<_> =
+                (0..controller.front().grid().cells()).map(|cell| cell_words(controller.front(), cell)).collect();
+            let inpainting = Inpainting::for_depth(DEPTH_BITS, Gamma::Zero);
+            let filled = controller.inpaint(&settings, &inpainting, &mut pyramid);
+            let map = controller.front();
+            let mut holes = 0;
+            for (cell, before) in (0..).zip(&before) {
+                if map.class(cell) == Class::JustUnobscured {
+                    holes += 1;
+                } else {
+                    assert_eq!(&cell_words(map, cell), before, "cell {cell}");
+                }
+            }
+            assert!(filled > 0 && filled <= holes);
+        }
+    });
+}
+
+#[test]
+fn an_empty_mask_of_bits_fills_nothing_and_half_of_it_half() {
+    let stage = named("crossing");
+    let cells = stage.shape.cells() as usize;
+    let plain = frames::<Moving>(&stage, None, Work::Skipping, 1);
+    let inpainting = |mask| Inpainting { mask, quads: false, ..Inpainting::for_depth(DEPTH_BITS, Gamma::Zero) };
+    let (none, upper) = (vec![0; cells.div_ceil(32)], vec![u32::MAX; cells.div_ceil(32) / 2]);
+    let masked = frames::<Moving>(&stage, Some(&inpainting(&none)), Work::Skipping, 1);
+    assert_eq!((&masked[0].0, masked[0].1), (&plain[0].0, 0));
+    let all = frames::<Moving>(&stage, Some(&inpainting(&[])), Work::Skipping, 1);
+    let half = frames::<Moving>(&stage, Some(&inpainting(&upper)), Work::Skipping, 1);
+    assert!(0 < half[0].1 && half[0].1 < all[0].1);
+    let planes = half[0].0.len() / cells;
+    for plane in 0..planes {
+        for cell in 0..cells {
+            let expected = if cell < upper.len() * 32 { &all } else { &plain };
+            assert_eq!(half[0].0[plane * cells + cell], expected[0].0[plane * cells + cell]);
+        }
+    }
+}
+
+#[test]
+fn a_pyramid_of_another_size_does_no_harm() {
+    let stage = named("crossing");
+    let budget = Chosen::<Full>::new(Paper::BITS).unwrap();
+    let content = stage.content::<Full, _>(budget, |_| {});
+    for (width, height) in [(1, 1), (5, 900), (2000, 3)] {
+        let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
+        let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+        with_controller(stage.shape, budget, Some(&content), |controller| {
+            for work in Work::ALL {
+                controller.step(&settings(work));
+                controller.inpaint(&settings(work), &Inpainting::for_depth(DEPTH_BITS, Gamma::One), &mut pyramid);
+            }
+        });
+    }
+}
+
+/// Over all scenes: every hole whose surroundings are known is filled, and its motion is that of a galpixel nearby.
+#[test]
+fn holes_move_as_a_known_galpixel_does() {
+    let budget = Chosen::<Full>::new(Paper::BITS).unwrap();
+    for stage in stage::all() {
+        let content = stage.content::<Full, _>(budget, |_| {});
+        let (width, height) = (stage.shape.columns(), stage.shape.rows());
+        let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
+        let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+        with_controller(stage.shape, budget, Some(&content), |controller| {
+            let settings = settings(Work::Skipping);
+            controller.step(&settings);
+            let inpainting = Inpainting { quads: false, ..Inpainting::for_depth(DEPTH_BITS, Gamma::Half) };
+            controller.inpaint(&settings, &Inpainting { rule: Inpainting::classic().rule, ..inpainting }, &mut pyramid);
+            let map = controller.front();
+            let grid = map.grid();
+            let galpixels = || {
+                (0..height as i32)
+                    .flat_map(|y| (0..width as i32).map(move |x| (x, y)))
+                    .filter_map(|(x, y)| map.load(x, y))
+            };
+            let motion = |galpixel: &galpix_core::galpixel::Galpixel| (galpixel.velocity, galpixel.acceleration);
+            let known: std::collections::HashSet<_> = galpixels()
+                .filter(|galpixel| galpixel.class == Class::Galpixel)
+                .map(|galpixel| motion(&galpixel))
+                .collect();
+            for galpixel in galpixels().filter(|galpixel| galpixel.class == Class::JustUnobscured) {
+                assert!(known.contains(&motion(&galpixel)), "{}", stage.scene.name());
+            }
+            assert_eq!(grid.cells(), width * height);
+        });
+    }
+    assert!(Full::LANES.acceleration);
+}
