@@ -27,7 +27,22 @@ use super::validity::{FULL, Gamma};
 pub trait Value: Copy + Default {
     /// The mean by weights whose sum is 1 to 64; a half goes up if `tie` is 1.
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self;
+
+    /// [`Self::mean`] by equal weights.
+    #[inline(always)]
+    fn plain_mean(values: &[Self; 4], tie: u32) -> Self {
+        Self::mean(values, &[FULL; 4], tie)
+    }
+
+    /// [`Self::mean`] by the weights [`LINEAR`].
+    #[inline(always)]
+    fn linear(values: &[Self; 4], tie: u32) -> Self {
+        Self::mean(values, &LINEAR, tie)
+    }
 }
+
+/// Sixteenths by which a cell takes of the four coarse cells around it: its own, that beside, that above or below, that across.
+pub const LINEAR: [u32; 4] = [9, 3, 3, 1];
 
 /// A picture with holes.
 pub trait Picture {
@@ -61,6 +76,10 @@ pub struct Rule {
 #[must_use]
 pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Known<V> {
     let depth = children.iter().fold(0, |farthest, child| farthest.max(child.depth));
+    let nearest = children.iter().fold(u32::MAX, |nearest, child| nearest.min(child.depth));
+    if children.iter().all(|child| child.validity == FULL) && depth - nearest <= rule.threshold {
+        return Known { validity: FULL, depth, value: V::plain_mean(&children.map(|child| child.value), tie) };
+    }
     let weights = children.map(|child| if depth - child.depth > rule.threshold { 0 } else { child.validity });
     let sum = weights.iter().sum();
     let value = if sum == 0 { V::default() } else { V::mean(&children.map(|child| child.value), &weights, tie) };
@@ -72,13 +91,16 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Know
 #[inline(always)]
 #[must_use]
 pub fn sampled<V: Value>(coarse: &[Known<V>; 4], depth: u32, rule: &Rule, tie: u32) -> Option<V> {
-    let mut weights = [9, 3, 3, 1];
-    for (weight, cell) in weights.iter_mut().zip(coarse) {
-        if cell.validity == 0 || depth.saturating_sub(cell.depth) > rule.threshold {
-            *weight = 0;
-        }
+    let of_use = coarse.map(|cell| cell.validity != 0 && depth.saturating_sub(cell.depth) <= rule.threshold);
+    let values = coarse.map(|cell| cell.value);
+    if of_use == [true; 4] {
+        return Some(V::linear(&values, tie));
     }
-    if weights == [0; 4] { None } else { Some(V::mean(&coarse.map(|cell| cell.value), &weights, tie)) }
+    let mut weights = LINEAR;
+    for (weight, of_use) in weights.iter_mut().zip(of_use) {
+        *weight *= u32::from(of_use);
+    }
+    if weights == [0; 4] { None } else { Some(V::mean(&values, &weights, tie)) }
 }
 
 /// PUSH of Algorithm 1: a cell takes its own value by its validity, and the rest from the coarser level.
