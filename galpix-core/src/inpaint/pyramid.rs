@@ -117,12 +117,24 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
         if x < level.width && y < level.height { (level.start + y * level.width + x) as usize } else { usize::MAX }
     }
 
+    /// The indices of four cells of a level, 0 to one above the topmost, as [`Self::index`] gives them.
+    #[inline(always)]
+    pub(super) fn indices(&self, level: u32, places: [(u32, u32); 4]) -> [usize; 4] {
+        if level > self.levels.top() {
+            return [usize::MAX; 4];
+        }
+        let level = self.levels.level(level);
+        places.map(|(x, y)| {
+            if x < level.width && y < level.height { (level.start + y * level.width + x) as usize } else { usize::MAX }
+        })
+    }
+
     /// How far a cell has been worked out; a place that there is not is completed.
     #[inline(always)]
     #[must_use]
     pub fn state(&self, index: usize) -> State {
         let word = self.states.get(index / STATES as usize).copied().unwrap_or(u32::MAX);
-        match word >> (index as u32 % STATES << 1) & 3 {
+        match word >> ((index as u32 % STATES) << 1) & 3 {
             0 => State::Untouched,
             1 => State::Pulled,
             _ => State::Completed,
@@ -136,12 +148,49 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
         self.cells.get(index).map_or(Known { validity: 0, depth: 0, value: V::default() }, |cell| cell.known())
     }
 
+    /// Whether some neighbours, at most sixteen, are all untouched.
+    #[inline(always)]
+    pub(super) fn are_untouched(&self, index: usize, count: u32) -> bool {
+        let word = |word: usize| u64::from(self.states.get(word).copied().unwrap_or(u32::MAX));
+        let at = index / STATES as usize;
+        let both = word(at) | word(at + 1) << u32::BITS;
+        both >> ((index as u32 % STATES) << 1) & ((1 << (count << 1)) - 1) == 0
+    }
+
+    /// Sets untouched neighbours of which all is known as pulled.
+    #[inline(always)]
+    pub(super) fn set_run<const N: usize>(&mut self, index: usize, run: &[(u32, V); N]) {
+        let Some(cells) = self.cells.get_mut(index..index + N) else { return };
+        for (cell, &(depth, value)) in cells.iter_mut().zip(run) {
+            *cell = Cell::new(Known { validity: FULL, depth, value });
+        }
+        const { assert!(N <= STATES as usize) }
+        // State 1 in all of them: every other bit.
+        let ones = (State::Pulled as u64 * 0x5555_5555) & ((1 << (2 * N)) - 1);
+        let ones = ones << ((index as u32 % STATES) << 1);
+        for (word, ones) in
+            [(index / STATES as usize, ones as u32), (index / STATES as usize + 1, (ones >> u32::BITS) as u32)]
+        {
+            if let Some(word) = self.states.get_mut(word) {
+                *word |= ones;
+            }
+        }
+    }
+
+    /// Says that a pulled cell needs nothing from above.
+    #[inline(always)]
+    pub(super) fn complete(&mut self, index: usize) {
+        if let Some(word) = self.states.get_mut(index / STATES as usize) {
+            *word |= (State::Completed as u32) << ((index as u32 % STATES) << 1);
+        }
+    }
+
     /// Sets an untouched cell as pulled, a pulled one as completed.
     #[inline(always)]
     pub(super) fn set(&mut self, index: usize, state: State, known: Known<V>) {
         if let (Some(cell), Some(word)) = (self.cells.get_mut(index), self.states.get_mut(index / STATES as usize)) {
             *cell = Cell::new(known);
-            *word |= (state as u32) << (index as u32 % STATES << 1);
+            *word |= (state as u32) << ((index as u32 % STATES) << 1);
         }
     }
 }

@@ -72,12 +72,14 @@ fn rules() -> impl Strategy<Value = Rule> {
     (prop::sample::select(&Gamma::ALL[..]), threshold).prop_map(|(gamma, threshold)| Rule { gamma, threshold })
 }
 
-/// Sides of any parity; holes from none to all but one; depths of a few surfaces.
+/// Sides of any parity; holes from none to all; depths of a few surfaces, or of one.
 fn pictures() -> impl Strategy<Value = Holed> {
-    (1..=21u32, 1..=17u32, 0..=100u32).prop_flat_map(|(width, height, share)| {
+    let share = prop_oneof![0..=100u32, Just(1u32)];
+    let depth = prop_oneof![Just(0..64u32), Just(40..44u32)];
+    (1..=75u32, 1..=17u32, share, depth).prop_flat_map(|(width, height, share, depth)| {
         let cells = (width * height) as usize;
         let known = prop::collection::vec((0..100u32).prop_map(move |n| n >= share), cells);
-        let depths = prop::collection::vec(prop_oneof![0..64u32, Just(10), Just(60)], cells);
+        let depths = prop::collection::vec(prop_oneof![depth, Just(40)], cells);
         (prop::collection::vec(0..1u32 << 24, cells), known, depths).prop_map(move |(colours, known, depths)| Holed {
             size: [width, height],
             colours,
