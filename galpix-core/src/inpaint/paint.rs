@@ -15,6 +15,9 @@ pub const FRACTION_BITS: u32 = CHANNEL_BITS - 8;
 pub struct Tint(u32);
 
 impl Tint {
+    /// No light in any channel.
+    pub const BLACK: Self = Self(0);
+
     /// The channels of a stored colour, each moved up to ten bits.
     #[inline(always)]
     #[must_use]
@@ -106,6 +109,11 @@ pub struct Moving {
     pub tint: Tint,
     /// The cell of the picture.
     pub source: u32,
+}
+
+impl Moving {
+    /// Black, from the first cell: what the memory of a pyramid is set up with.
+    pub const BLACK: Self = Self { tint: Tint::BLACK, source: 0 };
 }
 
 impl Value for Moving {

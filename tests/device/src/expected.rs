@@ -16,6 +16,7 @@ use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::graft::graft;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::pyramid::{Cell, Pyramid};
 use galpix_core::layout::Layout;
 use galpix_core::scan_out::{PanelColour, row};
 use galpix_core::tally::Tally;
@@ -79,6 +80,9 @@ where
     )
     .map_err(|error| failed(&error))?;
     controller.set_frame(first);
+    let (mut cells, mut states) = (vec![Cell::<P::Filling>::default(); P::PYRAMID.0], vec![0; P::PYRAMID.1]);
+    let mut pyramid = Pyramid::new(P::WIDTH.into(), P::HEIGHT.into(), &mut cells, &mut states)
+        .map_err(|error| failed(&error))?;
 
     let renderer = match shows {
         Shows::Scene(number) => {
@@ -105,6 +109,7 @@ where
             renderer.next(controller.front_mut(), now);
         }
         let tally = controller.step(&P::SETTINGS);
+        controller.inpaint(&P::SETTINGS, &P::INPAINTING, &mut pyramid);
         made.push(expected::<P>(board, &controller, &tally, overlay));
     }
     Ok(made)

@@ -15,10 +15,12 @@ mod ssi;
 mod uart;
 
 use galpix_controller::board::Board;
+use galpix_controller::inpainted::Inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::frame::Scratch;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::rolling::Rolling;
 use galpix_link::panel::Panel;
 
@@ -92,7 +94,10 @@ fn main() -> ! {
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
     let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
-    Session::new(board, rolling, Display::DESCRIPTION, Display::SETTINGS).run()
+    let (cells, states) = lent.pyramid;
+    let Ok(pyramid) = Pyramid::new(Display::WIDTH.into(), Display::HEIGHT.into(), cells, states) else { end::fail() };
+    let maps = Inpainted::new(rolling, Display::INPAINTING, pyramid);
+    Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
 /// The map and its window over the memory of the program.

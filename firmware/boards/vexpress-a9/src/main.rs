@@ -14,10 +14,12 @@ mod panel;
 mod uart;
 
 use galpix_controller::board::Board;
+use galpix_controller::inpainted::Inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::frame::{Controller, Scratch};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_link::panel::Panel;
 use galpix_registers::vexpress::{TIMER_CONTROL, TIMER_COUNTER, TIMER_LOAD};
 
@@ -82,7 +84,10 @@ fn main() -> ! {
 
     let board = Express { lcd, vsyncs: 0 };
     let Ok(controller) = controller(lent.maps, lent.scratch, lent.starts) else { end::fail() };
-    Session::new(board, controller, Display::DESCRIPTION, Display::SETTINGS).run()
+    let (cells, states) = lent.pyramid;
+    let Ok(pyramid) = Pyramid::new(Display::WIDTH.into(), Display::HEIGHT.into(), cells, states) else { end::fail() };
+    let maps = Inpainted::new(controller, Display::INPAINTING, pyramid);
+    Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
 /// The two maps over the memory of the program.
