@@ -9,7 +9,6 @@
 //! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is a bullet
 //! hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
 
-use crate::edge::on_edge;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
@@ -62,24 +61,48 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
     let mut changed = 0;
     for y in 0..height.saturating_sub(1) as i32 {
         let (Some(row), Some(next)) = (before.grid().row(y), before.grid().row(y + 1)) else { continue };
+        let column =
+            |x: u32| [corner(before, row + x, x, y, &thresholds), corner(before, next + x, x, y + 1, &thresholds)];
         let mut right: Option<[Option<Corner>; 2]> = None;
-        for x in 1..width {
-            let edge = [row + x - 1, row + x, next + x - 1, next + x].iter().any(|&cell| on_edge(edges, cell));
-            if !edge {
-                right = None;
+        let mut begin = 1;
+        while begin < width {
+            let on_edge = on_edge(edges, row + begin - 1) | on_edge(edges, next + begin - 1);
+            // A bit for each quad: two columns of it.
+            let mut quads = on_edge | on_edge >> 1;
+            let end = (begin + QUADS).min(width);
+            if quads == 0 {
+                (right, begin) = (None, end);
                 continue;
             }
-            let column =
-                |x: u32| [corner(before, row + x, x, y, &thresholds), corner(before, next + x, x, y + 1, &thresholds)];
-            let left = right.unwrap_or_else(|| column(x - 1));
-            let new = column(x);
-            right = Some(new);
-            if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (left, new) {
-                changed += draw([a, b, c, d], map);
+            for x in begin..end {
+                let edge = quads & 1 != 0;
+                quads >>= 1;
+                if !edge {
+                    right = None;
+                    continue;
+                }
+                let left = right.unwrap_or_else(|| column(x - 1));
+                let new = column(x);
+                right = Some(new);
+                if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (left, new) {
+                    changed += draw([a, b, c, d], map);
+                }
             }
+            begin = end;
         }
     }
     changed
+}
+
+/// Quads beside each other whose columns fit into a word of the edge map.
+const QUADS: u32 = u32::BITS - 1;
+
+/// Which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the map is.
+#[inline(always)]
+fn on_edge(edges: &[u32], cell: u32) -> u32 {
+    let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
+    let (at, shift) = ((cell / u32::BITS) as usize, cell % u32::BITS);
+    word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
 }
 
 /// A cell of the map before as a corner; none if it is empty.
