@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import peers
-from export import Frame, methods_of, read_export, write_rgb
+from export import Frame, methods_of, read_export, table, write_rgb
 from lpips_numpy import Lpips
 
 HEIGHT, WIDTH, FRAMES = 131, 203, 4
@@ -139,6 +139,13 @@ def check_scores():
     check("a flat fill has no variance", flat["variance"] == 0)
 
 
+def check_table():
+    rows = {"one": {"a": 1.0, "b": 2.0}, "two": {"a": 3.0}, "no holes": {}}
+    lines = table("title", ["a", "b"], rows, 1).splitlines()
+    check("a table has its rows", lines[-4:-1] == ["| one | 1.0 | 2.0 |", "| two | 3.0 | – |", "| no holes | – | – |"])
+    check("a mean is over the same sources for all, or is none", lines[-1] == "| mean | 2.0 | – |")
+
+
 def check_export(root):
     sources = read_export(root)
     check("frames are in order", [folder.name for folder in sources[0].folders] == ["8", "9", "10", "11"])
@@ -220,6 +227,7 @@ def main():
         make(root)
         check_fillers()
         check_scores()
+        check_table()
         check_export(root)
         if options.lpips:
             check_lpips(options.lpips)

@@ -51,15 +51,18 @@ def fov_video_vdp():
 def jod_table(sources, methods, metric, fps, whole, most):
     rows = {}
     for source in sources:
-        truth, videos = [], {method: [] for method in methods if method in source.methods}
+        truth, videos, holes = [], {method: [] for method in methods if method in source.methods}, False
         for frame in source.frames():
             # Frames side by side in time: the first ones, since leaving some out would change the motion.
             if most is not None and len(truth) == most:
                 break
             truth.append(frame.truth)
+            holes |= bool(frame.mask.any())
             for method, video in videos.items():
                 video.append(frame.picture(method) if whole else frame.scored(method))
-        rows[source.name] = {method: jod(metric, video, truth, fps) for method, video in videos.items()}
+        # Without a hole every video is the truth: 10 for all, which says nothing.
+        worth = videos if holes or whole else {}
+        rows[source.name] = {method: jod(metric, video, truth, fps) for method, video in worth.items()}
     return rows
 
 
