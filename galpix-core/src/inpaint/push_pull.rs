@@ -118,14 +118,16 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Know
 pub fn sampled<V: Value>(coarse: &[Known<V>; 4], depth: u32, rule: &Rule, tie: u32) -> Option<V> {
     let of_use = each(*coarse, |cell| cell.validity != 0 && depth.saturating_sub(cell.depth) <= rule.threshold);
     let values = each(*coarse, |cell| cell.value);
-    if of_use == [true; 4] {
+    // Comparisons of arrays would be calls.
+    let [own, beside, above, across] = of_use;
+    if own & beside & above & across {
         return Some(V::linear(&values, tie));
     }
     let mut weights = LINEAR;
     for (weight, of_use) in weights.iter_mut().zip(of_use) {
         *weight *= u32::from(of_use);
     }
-    if weights == [0; 4] { None } else { Some(V::mean(&values, &weights, tie)) }
+    if own | beside | above | across { Some(V::mean(&values, &weights, tie)) } else { None }
 }
 
 /// PUSH of Algorithm 1: a cell takes its own value by its validity, and the rest from the coarser level.
@@ -209,16 +211,17 @@ impl<V: Value> Filling<'_, '_, V> {
         let end = (x + count).min(self.pyramid.levels().level(level).width);
         let row = self.pyramid.index(level, x, y);
         let (mut at, mut index) = (x, row);
+        // Where one run is uneven the next one is sought behind it.
+        let mut uneven = x;
         while at < end {
-            if level == 1
-                && end - at >= RUN as u32
-                && self.pyramid.are_untouched(index, RUN as u32)
-                && let Some(run) = picture.even_run(at, y, self.rule.threshold)
-            {
-                self.pyramid.set_run(index, &run);
-                at += RUN as u32;
-                index += RUN;
-                continue;
+            if level == 1 && at >= uneven && end - at >= RUN as u32 && self.pyramid.are_untouched(index, RUN as u32) {
+                if let Some(run) = picture.even_run(at, y, self.rule.threshold) {
+                    self.pyramid.set_run(index, &run);
+                    at += RUN as u32;
+                    index += RUN;
+                    continue;
+                }
+                uneven = at + RUN as u32;
             }
             if self.pyramid.state(index) == State::Untouched {
                 self.pull(picture, level, at, y);

@@ -13,6 +13,7 @@ use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
 use crate::propagate::{advance, thresholds};
+use crate::record::{Record, Words};
 use crate::rounding::Rounding;
 
 /// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
@@ -57,6 +58,7 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
         return 0;
     }
     let thresholds = thresholds(before.record(), rounding, frame);
+    let motion = motion(before.record());
     let (width, height) = (before.grid().width(), before.grid().height());
     let mut changed = 0;
     for y in 0..height.saturating_sub(1) as i32 {
@@ -77,7 +79,7 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
             for x in begin..end {
                 let edge = quads & 1 != 0;
                 quads >>= 1;
-                if !edge {
+                if !edge || moves_as_one(before, &motion, [row + x - 1, next + x - 1]) {
                     right = None;
                     continue;
                 }
@@ -103,6 +105,28 @@ fn on_edge(edges: &[u32], cell: u32) -> u32 {
     let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
     let (at, shift) = ((cell / u32::BITS) as usize, cell % u32::BITS);
     word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
+}
+
+/// Ones in all fields from which a step in the plane follows.
+fn motion(record: &Record) -> Words {
+    let mut motion = Words::default();
+    let fields = [record.velocity(0), record.velocity(1), record.acceleration(0), record.acceleration(1)];
+    for field in fields.into_iter().chain([record.offset_x(), record.offset_y()]) {
+        field.set(&mut motion, u32::MAX);
+    }
+    motion
+}
+
+/// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn.
+#[inline(always)]
+fn moves_as_one<L: Layout, B: Budget<L>>(before: &Galpixmap<'_, L, B>, motion: &Words, cells: [u32; 2]) -> bool {
+    let mut differ = 0;
+    for (plane, mask) in before.planes().iter().zip(motion).take(before.record().words()) {
+        let two = |cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<2>).copied();
+        let (Some([a, b]), Some([c, d])) = (two(cells[0]), two(cells[1])) else { return false };
+        differ |= ((a ^ b) | (a ^ c) | (a ^ d)) & mask;
+    }
+    differ == 0
 }
 
 /// A cell of the map before as a corner; none if it is empty.
