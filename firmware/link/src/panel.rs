@@ -43,8 +43,7 @@ pub trait Panel: Profile + Sized {
     /// What push-pull fills in after a frame.
     type Filling: OfGalpixel<Self::Layout>;
     /// How.
-    const INPAINTING: Inpainting<'static> =
-        Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero);
+    const INPAINTING: Inpainting<'static> = Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero);
     /// Cells of the pyramid for it, and the words of their states.
     const PYRAMID: (usize, usize) = {
         let cells = levels::cells(Self::WIDTH as u32, Self::HEIGHT as u32);

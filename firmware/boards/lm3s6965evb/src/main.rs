@@ -11,16 +11,15 @@ mod clock;
 mod end;
 mod memory;
 mod panel;
+mod push_pull;
 mod ssi;
 mod uart;
 
 use galpix_controller::board::Board;
-use galpix_controller::inpainted::Inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::frame::Scratch;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
-use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::rolling::Rolling;
 use galpix_link::panel::Panel;
 
@@ -94,9 +93,7 @@ fn main() -> ! {
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
     let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
-    let (cells, states) = lent.pyramid;
-    let Ok(pyramid) = Pyramid::new(Display::WIDTH.into(), Display::HEIGHT.into(), cells, states) else { end::fail() };
-    let maps = Inpainted::new(rolling, Display::INPAINTING, pyramid);
+    let Ok(maps) = push_pull::inpainted(rolling) else { end::fail() };
     Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 

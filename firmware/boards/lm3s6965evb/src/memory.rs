@@ -1,13 +1,12 @@
 //! Where the 64 KiB go: every large piece by name, summed up by the compiler.
 
-use galpix_core::inpaint::paint::Tint;
-use galpix_core::inpaint::pyramid::Cell;
 use galpix_core::rolling;
 use galpix_link::panel::Panel;
 use static_cell::ConstStaticCell;
 
 use crate::Display;
 use crate::panel::Band;
+use crate::push_pull;
 use crate::uart;
 
 const WIDTH: usize = Display::WIDTH as usize;
@@ -17,9 +16,6 @@ const HEIGHT: usize = Display::HEIGHT as usize;
 pub const WINDOW_ROWS: usize = rolling::rows(&Display::RECORD, 1) as usize;
 
 const WINDOW_CELLS: usize = WINDOW_ROWS * WIDTH;
-/// A cell of the pyramid.
-pub type Pulled = Cell<<Display as Panel>::Filling>;
-
 const WINDOW_WORDS: usize = WINDOW_CELLS * Display::RECORD.words();
 const _: () = assert!(!Display::TELLS_SURFACES, "lend the window a winner map and the map an edge map");
 
@@ -27,18 +23,14 @@ static MAP: ConstStaticCell<[u32; Display::MAP_WORDS]> = ConstStaticCell::new([0
 static WINDOW: ConstStaticCell<[u32; WINDOW_WORDS]> = ConstStaticCell::new([0; WINDOW_WORDS]);
 static STARTS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]);
 static TURNS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]);
-static PYRAMID: ConstStaticCell<[Pulled; Display::PYRAMID.0]> =
-    ConstStaticCell::new([Cell::unknown(Tint::BLACK); Display::PYRAMID.0]);
-static STATES: ConstStaticCell<[u32; Display::PYRAMID.1]> = ConstStaticCell::new([0; Display::PYRAMID.1]);
 static BAND: ConstStaticCell<Band> = ConstStaticCell::new(Band::new());
 
 /// What each piece takes, in bytes.
-pub const SHARES: [(&str, usize); 6] = [
+pub const SHARES: [(&str, usize); 5] = [
     ("for the map", Display::MAP_WORDS * 4),
     ("for the window of rows", WINDOW_WORDS * 4),
     ("for the two tables of row starts", HEIGHT * 8),
-    ("for the pyramid of push-pull", Display::PYRAMID.0 * size_of::<Pulled>()),
-    ("for the states of its cells", Display::PYRAMID.1 * 4),
+    ("for the pyramid of push-pull", push_pull::BYTES),
     ("for a band of the picture and the line", size_of::<Band>() + uart::QUEUE),
 ];
 
@@ -53,9 +45,10 @@ pub const SUM: usize = {
 };
 
 /// What is kept for the stack and small statics. The painted stack tells what is really used.
-const STACK: usize = 4 * 1024;
+/// With push-pull, which calls itself for each level of its pyramid, there is as little as that, and it is enough.
+const STACK: usize = if push_pull::BYTES == 0 { 8 * 1024 } else { 4 * 1024 };
 
-const _: () = assert!(SUM + STACK <= 64 * 1024, "the maps and a stack of 4 KiB do not fit into 64 KiB");
+const _: () = assert!(SUM + STACK <= 64 * 1024, "the maps and the stack do not fit into 64 KiB");
 
 /// The memory, taken once.
 pub struct Lent {
@@ -63,20 +56,12 @@ pub struct Lent {
     pub window: &'static mut [u32],
     pub starts: &'static mut [u32],
     pub turns: &'static mut [u32],
-    pub pyramid: (&'static mut [Pulled], &'static mut [u32]),
     pub band: &'static mut Band,
 }
 
 impl Lent {
     /// Takes it. The second time there is none left, and the program ends.
     pub fn take() -> Self {
-        Self {
-            map: MAP.take(),
-            window: WINDOW.take(),
-            starts: STARTS.take(),
-            turns: TURNS.take(),
-            pyramid: (PYRAMID.take(), STATES.take()),
-            band: BAND.take(),
-        }
+        Self { map: MAP.take(), window: WINDOW.take(), starts: STARTS.take(), turns: TURNS.take(), band: BAND.take() }
     }
 }

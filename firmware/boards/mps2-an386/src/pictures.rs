@@ -151,8 +151,9 @@ impl Picture {
                         ..Galpixel::default()
                     },
                 };
-                let uncovered =
-                    |thing: &Thing| galpixel.depth > thing.depth && thing.covers(x - CRESCENT, y) && !thing.covers(x, y);
+                let uncovered = |thing: &Thing| {
+                    galpixel.depth > thing.depth && thing.covers(x - CRESCENT, y) && !thing.covers(x, y)
+                };
                 if self == Self::Torn && things.iter().any(uncovered) {
                     galpixel.class = Class::JustUnobscured;
                 }

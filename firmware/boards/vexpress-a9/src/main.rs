@@ -11,15 +11,14 @@ mod end;
 mod interrupts;
 mod memory;
 mod panel;
+mod push_pull;
 mod uart;
 
 use galpix_controller::board::Board;
-use galpix_controller::inpainted::Inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::frame::{Controller, Scratch};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
-use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_link::panel::Panel;
 use galpix_registers::vexpress::{TIMER_CONTROL, TIMER_COUNTER, TIMER_LOAD};
 
@@ -84,9 +83,7 @@ fn main() -> ! {
 
     let board = Express { lcd, vsyncs: 0 };
     let Ok(controller) = controller(lent.maps, lent.scratch, lent.starts) else { end::fail() };
-    let (cells, states) = lent.pyramid;
-    let Ok(pyramid) = Pyramid::new(Display::WIDTH.into(), Display::HEIGHT.into(), cells, states) else { end::fail() };
-    let maps = Inpainted::new(controller, Display::INPAINTING, pyramid);
+    let Ok(maps) = push_pull::inpainted(controller) else { end::fail() };
     Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 

@@ -1,38 +1,30 @@
 //! The memory of the controller, by name.
 
 use galpix_core::frame::Scratch;
-use galpix_core::inpaint::paint::Moving;
-use galpix_core::inpaint::pyramid::Cell;
 use galpix_link::panel::Panel;
 use static_cell::ConstStaticCell;
 
 use crate::Display;
 use crate::panel::Picture;
+use crate::push_pull;
 
 const HEIGHT: usize = Display::HEIGHT as usize;
 const EDGE_WORDS: usize = Display::CELLS.div_ceil(32);
-
-/// A cell of the pyramid.
-pub type Pulled = Cell<<Display as Panel>::Filling>;
 
 static MAPS: [ConstStaticCell<[u32; Display::MAP_WORDS]>; 2] =
     [const { ConstStaticCell::new([0; Display::MAP_WORDS]) }; 2];
 static WINNERS: ConstStaticCell<[u32; Display::CELLS]> = ConstStaticCell::new([0; Display::CELLS]);
 static EDGES: ConstStaticCell<[u32; EDGE_WORDS]> = ConstStaticCell::new([0; EDGE_WORDS]);
 static STARTS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]);
-static PYRAMID: ConstStaticCell<[Pulled; Display::PYRAMID.0]> =
-    ConstStaticCell::new([Cell::unknown(Moving::BLACK); Display::PYRAMID.0]);
-static STATES: ConstStaticCell<[u32; Display::PYRAMID.1]> = ConstStaticCell::new([0; Display::PYRAMID.1]);
 static PICTURES: [ConstStaticCell<Picture>; 2] = [const { ConstStaticCell::new(Picture::new()) }; 2];
 
 /// What each piece takes, in bytes.
-pub const SHARES: [(&str, usize); 7] = [
+pub const SHARES: [(&str, usize); 6] = [
     ("for two maps", 2 * Display::MAP_WORDS * 4),
     ("for the winners", Display::CELLS * 4),
     ("for the edge map", EDGE_WORDS * 4),
     ("for the table of row starts", HEIGHT * 4),
-    ("for the pyramid of push-pull", Display::PYRAMID.0 * size_of::<Pulled>()),
-    ("for the states of its cells", Display::PYRAMID.1 * 4),
+    ("for the pyramid of push-pull", push_pull::BYTES),
     ("for two pictures", 2 * size_of::<Picture>()),
 ];
 
@@ -41,7 +33,6 @@ pub struct Lent {
     pub maps: [&'static mut [u32]; 2],
     pub scratch: Scratch<'static>,
     pub starts: &'static mut [u32],
-    pub pyramid: (&'static mut [Pulled], &'static mut [u32]),
     pub pictures: [&'static mut Picture; 2],
 }
 
@@ -54,7 +45,6 @@ impl Lent {
             maps: [front.take(), back.take()],
             scratch: Scratch { winners: WINNERS.take(), edges: EDGES.take() },
             starts: STARTS.take(),
-            pyramid: (PYRAMID.take(), STATES.take()),
             pictures: [shown.take(), hidden.take()],
         }
     }
