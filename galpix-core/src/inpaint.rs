@@ -11,12 +11,22 @@
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
 
+pub mod demand;
+pub mod features;
 pub mod levels;
 pub mod map;
 pub mod mean;
+pub mod metamer;
+pub mod needs;
+pub mod noise;
 pub mod paint;
 pub mod picture;
 pub mod push_pull;
 pub mod pyramid;
 pub mod quads;
+pub mod root;
+pub mod statistics;
+pub mod steerable;
+pub mod tone;
 pub mod validity;
+pub mod ycbcr;

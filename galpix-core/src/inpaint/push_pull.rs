@@ -99,7 +99,7 @@ pub fn pushed<V: Value>(own: Known<V>, from_above: Option<V>, tie: u32) -> Known
 
 /// The four cells of the level above that a cell is sampled from, as [`sampled`] takes them.
 #[inline(always)]
-const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
+pub(super) const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
     // A place left of or above the first one wraps to where there is none.
     let (own, beside) = (x >> 1, (x >> 1).wrapping_add(x & 1).wrapping_add(x & 1).wrapping_sub(1));
     let (row, across) = (y >> 1, (y >> 1).wrapping_add(y & 1).wrapping_add(y & 1).wrapping_sub(1));
