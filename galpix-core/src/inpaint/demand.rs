@@ -5,6 +5,12 @@ use super::push_pull::{Rule, Value, above, pulled, pushed, sampled};
 use super::pyramid::{Known, Pyramid, State};
 use super::validity::FULL;
 
+/// Values of which four that weigh the same have a mean without a product: most of what is pulled.
+pub trait Even: Value {
+    /// As [`Value::mean`] by equal weights.
+    fn mean_of_known(values: [&Self; 4], tie: u32) -> Self;
+}
+
 /// What lies under a pyramid.
 pub trait Base<V> {
     /// Pulls a cell of level 1, and any others that come with it.
@@ -22,7 +28,7 @@ pub struct Demand<'f, 's, V, B> {
     pub base: B,
 }
 
-impl<V: Value, B: Base<V>> Demand<'_, '_, V, B> {
+impl<V: Even, B: Base<V>> Demand<'_, '_, V, B> {
     /// Pulls a cell of a level from 1 on, and before it what that needs.
     #[inline]
     pub fn want_pulled(&mut self, level: u32, x: u32, y: u32) {
@@ -40,10 +46,32 @@ impl<V: Value, B: Base<V>> Demand<'_, '_, V, B> {
         for (x, y) in places {
             self.want_pulled(level - 1, x, y);
         }
-        let children = places.map(|(x, y)| self.pyramid.known(self.pyramid.index(level - 1, x, y)));
-        let known = pulled(&children, self.rule, tie(x, y, level));
+        let [a, b, c, d] = places;
+        let at = |(x, y): (u32, u32)| self.pyramid.index(level - 1, x, y);
+        let places = [at(a), at(b), at(c), at(d)];
+        let known = match self.even(places, tie(x, y, level)) {
+            Some(known) => known,
+            None => {
+                let [a, b, c, d] = places;
+                let child = |at: usize| self.pyramid.known(at);
+                pulled(&[child(a), child(b), child(c), child(d)], self.rule, tie(x, y, level))
+            }
+        };
         let index = self.pyramid.index(level, x, y);
         self.pyramid.set(index, State::Pulled, known);
+    }
+
+    /// What [`pulled`] makes of four cells that are known and of one surface.
+    #[inline(always)]
+    fn even(&self, [a, b, c, d]: [usize; 4], tie: u32) -> Option<Known<V>> {
+        let (a, b, c, d) =
+            (self.pyramid.parts(a)?, self.pyramid.parts(b)?, self.pyramid.parts(c)?, self.pyramid.parts(d)?);
+        let nearest = a.1.min(b.1).min(c.1.min(d.1));
+        let depth = a.1.max(b.1).max(c.1.max(d.1));
+        if a.0 & b.0 & c.0 & d.0 != FULL || depth - nearest > self.rule.threshold {
+            return None;
+        }
+        Some(Known { validity: FULL, depth, value: V::mean_of_known([a.2, b.2, c.2, d.2], tie) })
     }
 
     /// Completes a cell of a level from 1 on, and before it what that needs.
@@ -59,7 +87,7 @@ impl<V: Value, B: Base<V>> Demand<'_, '_, V, B> {
                 self.want_completed(level + 1, x, y);
             }
         }
-        let from_above = sample(self.pyramid, level, x, y, own.depth, self.rule, |value| value);
+        let from_above = sample(self.pyramid, level, x, y, own.depth, self.rule, |value| *value);
         self.pyramid.set(index, State::Completed, pushed(own, from_above, tie(x, y, level)));
     }
 }
@@ -73,14 +101,18 @@ pub fn sample<V: Value, W: Value>(
     y: u32,
     depth: u32,
     rule: &Rule,
-    of: impl Fn(V) -> W,
+    of: impl Fn(&V) -> W,
 ) -> Option<W> {
     if level >= pyramid.levels().top() {
         return None;
     }
-    let coarse = above(x, y).map(|(x, y)| {
-        let Known { validity, depth, value } = pyramid.known(pyramid.index(level + 1, x, y));
+    let [a, b, c, d] = above(x, y);
+    let at = |(x, y): (u32, u32)| {
+        let Some((validity, depth, value)) = pyramid.parts(pyramid.index(level + 1, x, y)) else {
+            return Known::default();
+        };
         Known { validity, depth, value: of(value) }
-    });
+    };
+    let coarse = [at(a), at(b), at(c), at(d)];
     sampled(&coarse, depth, rule, tie(x, y, level))
 }

@@ -8,26 +8,61 @@
 
 use super::demand::{Base, Demand};
 use super::mean::tie;
-use super::push_pull::{Picture, Rule, pulled};
+use super::metamer::Scene;
+use super::push_pull::{Rule, pulled};
 use super::pyramid::{Known, Pyramid, State};
-use super::statistics::Moments;
-use super::steerable::{APRON, Bands, COLUMNS, Cells, ROWS, TILE, bands};
+use super::statistics::{BANDS, Moments};
+use super::steerable::{APRON, Bands, TILE, bands};
+use super::tile::{Row, Surroundings};
 use super::tone::Tone;
 use super::validity::FULL;
+
+/// Columns and rows of a pulled tile.
+const HALF: usize = TILE / 2;
 
 /// Level 0 of the tones: the picture.
 #[derive(Debug)]
 pub struct Below<'p, P>(pub &'p P);
 
-impl<P: Picture<Value = Tone>> Base<Tone> for Below<'_, P> {
-    #[inline(always)]
+impl<P: Scene> Base<Tone> for Below<'_, P> {
+    /// Pulls 8 x 1 cells.
     fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, rule: &Rule, x: u32, y: u32) {
         let [width, height] = self.0.size();
-        let (left, top) = (x << 1, y << 1);
-        let children = [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)]
-            .map(|(x, y)| if x < width && y < height { self.0.known(x, y) } else { Known::default() });
-        let index = pyramid.index(1, x, y);
-        pyramid.set(index, State::Pulled, pulled(&children, rule, tie(x, y, 1)));
+        let (left, top) = (x / HALF as u32 * HALF as u32, y << 1);
+        let (mut upper, mut lower) = (Row::default(), Row::default());
+        self.0.row(2 * left, top, &mut upper);
+        if top + 1 < height {
+            self.0.row(2 * left, top + 1, &mut lower);
+        }
+        let mut means = [[0; HALF]; 3];
+        for ((means, upper), lower) in means.iter_mut().zip(&upper.channels).zip(&lower.channels) {
+            for (i, mean) in means.iter_mut().enumerate() {
+                let sum = upper[2 * i] + upper[2 * i + 1] + lower[2 * i] + lower[2 * i + 1];
+                *mean = (sum + 1 + tie(i as u32, y, 1) as i16) >> 2;
+            }
+        }
+        for (i, x) in (left..(left + HALF as u32).min(width.div_ceil(2))).enumerate() {
+            let column = 2 * i;
+            let depths =
+                [upper.depths[column], upper.depths[column + 1], lower.depths[column], lower.depths[column + 1]];
+            let [a, b, c, d] = depths;
+            let depth = a.max(b).max(c.max(d)) as u32;
+            let known = upper.known[column] & upper.known[column + 1] & lower.known[column] & lower.known[column + 1];
+            let inside = 2 * x + 1 < width && top + 1 < height;
+            let even = inside && known != 0 && depth - a.min(b).min(c.min(d)) as u32 <= rule.threshold;
+            let known = if even {
+                let channels = [means[0][i], means[1][i], means[2][i]];
+                Known { validity: FULL, depth, value: Tone { channels, source: self.0.source(2 * x, top) } }
+            } else {
+                let child = |x: u32, y: u32| {
+                    if x < width && y < height { self.0.known(x, y) } else { Known::default() }
+                };
+                let (left, top) = (2 * x, top);
+                let children = [child(left, top), child(left + 1, top), child(left, top + 1), child(left + 1, top + 1)];
+                pulled(&children, rule, tie(x, y, 1))
+            };
+            pyramid.set(pyramid.index(1, x, y), State::Pulled, known);
+        }
     }
 }
 
@@ -40,110 +75,101 @@ pub struct Responses<'t, 'f, 's, P> {
     pub level: u32,
 }
 
-/// What a tile's responses are made from.
-struct Surroundings {
-    channels: [Cells; 3],
-    /// Whether a cell is known.
-    known: [[bool; COLUMNS]; ROWS],
-    depths: [[u32; COLUMNS]; ROWS],
-}
-
-impl<P: Picture<Value = Tone>> Responses<'_, '_, '_, P> {
-    /// A cell of the level, in its size.
+impl<P: Scene> Responses<'_, '_, '_, P> {
+    /// The cells of a row of the level.
     #[inline(always)]
-    fn cell(&mut self, x: u32, y: u32) -> Known<Tone> {
+    fn row(&mut self, left: u32, y: u32, cells: &mut Row) {
         if self.level == 0 {
-            return self.tones.base.0.known(x, y);
+            return self.tones.base.0.row(left, y, cells);
         }
-        self.tones.want_pulled(self.level, x, y);
-        self.tones.pyramid.known(self.tones.pyramid.index(self.level, x, y))
+        let width = self.tones.pyramid.levels().level(self.level).width;
+        for x in left..width.min(left + (TILE + 2 * APRON) as u32) {
+            self.tones.want_pulled(self.level, x, y);
+            cells.set((x - left) as usize, &self.tones.pyramid.known(self.tones.pyramid.index(self.level, x, y)));
+        }
     }
+}
 
-    /// The cells of a tile that begins at `left`, `top`, and those around it; the picture's border is repeated.
-    fn surroundings(&mut self, left: u32, top: u32) -> Surroundings {
-        let size = self.tones.pyramid.levels().level(self.level);
-        let mut surroundings = Surroundings {
-            channels: [[[0; COLUMNS]; ROWS]; 3],
-            known: [[false; COLUMNS]; ROWS],
-            depths: [[0; COLUMNS]; ROWS],
-        };
-        for row in 0..ROWS {
-            let y = (top + row as u32).saturating_sub(APRON as u32).min(size.height - 1);
-            for column in 0..TILE + 2 * APRON {
-                let x = (left + column as u32).saturating_sub(APRON as u32).min(size.width - 1);
-                let Known { validity, depth, value } = self.cell(x, y);
-                for (channel, level) in surroundings.channels.iter_mut().zip(value.channels) {
-                    channel[row][column] = level;
+/// The moments of four cells each of a tile.
+struct Quads {
+    means: [[[i16; HALF]; HALF]; BANDS],
+    squares: [[[u32; HALF]; HALF]; BANDS],
+}
+
+impl Quads {
+    /// Means of four that weigh the same; `tie` is that of the first one.
+    #[inline(always)]
+    fn new(of_channels: &[Bands; 3], tie: u32) -> Self {
+        let mut quads = Self { means: [[[0; HALF]; HALF]; BANDS], squares: [[[0; HALF]; HALF]; BANDS] };
+        let of_bands = of_channels.as_flattened();
+        for ((means, squares), band) in quads.means.iter_mut().zip(&mut quads.squares).zip(of_bands) {
+            for (y, (means, squares)) in means.iter_mut().zip(squares).enumerate() {
+                let (upper, lower) = (&band[2 * y], &band[2 * y + 1]);
+                for x in 0..HALF {
+                    let [a, b, c, d] = [upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]].map(i32::from);
+                    let up = 1 + ((x as u32 ^ y as u32 ^ tie) & 1);
+                    means[x] = ((a + b + c + d + up as i32) >> 2) as i16;
+                    squares[x] = ((a * a + b * b + c * c + d * d) as u32 + up) >> 2;
                 }
-                surroundings.known[row][column] = validity == FULL;
-                surroundings.depths[row][column] = depth;
             }
         }
-        surroundings
+        quads
+    }
+
+    #[inline(always)]
+    fn moments(&self, x: usize, y: usize) -> Moments {
+        let mut moments = Moments::default();
+        for band in 0..BANDS {
+            moments.means[band] = self.means[band][y][x];
+            moments.squares[band] = self.squares[band][y][x];
+        }
+        moments
     }
 }
 
-/// Whether all cells under the kernel are known and of one surface, for each cell of a tile.
-fn whole(of: &Surroundings, rule: &Rule) -> [[bool; TILE]; TILE] {
-    // Down the columns, then along the rows.
-    let mut known = [[true; COLUMNS]; TILE];
-    let mut ranges = [[(u32::MAX, 0); COLUMNS]; TILE];
-    for y in 0..TILE {
-        for row in y..y + 1 + 2 * APRON {
-            for x in 0..COLUMNS {
-                known[y][x] &= of.known[row][x];
-                let (low, high) = ranges[y][x];
-                ranges[y][x] = (low.min(of.depths[row][x]), high.max(of.depths[row][x]));
-            }
-        }
-    }
-    let mut whole = [[true; TILE]; TILE];
-    for y in 0..TILE {
-        for x in 0..TILE {
-            let (mut low, mut high) = (u32::MAX, 0);
-            for column in x..x + 1 + 2 * APRON {
-                whole[y][x] &= known[y][column];
-                low = low.min(ranges[y][column].0);
-                high = high.max(ranges[y][column].1);
-            }
-            whole[y][x] &= high - low <= rule.threshold;
-        }
-    }
-    whole
-}
-
-impl<P: Picture<Value = Tone>> Base<Moments> for Responses<'_, '_, '_, P> {
+impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
     /// Pulls the tile of 8 x 8 cells that this one lies in.
+    #[inline(never)]
     fn pull(&mut self, pyramid: &mut Pyramid<'_, Moments>, rule: &Rule, x: u32, y: u32) {
-        const HALF: u32 = TILE as u32 / 2;
-        let (left, top) = (x / HALF * HALF, y / HALF * HALF);
-        let surroundings = self.surroundings(2 * left, 2 * top);
-        let whole = whole(&surroundings, rule);
+        let half = HALF as u32;
+        let (left, top) = (x / half * half, y / half * half);
+        let size = self.tones.pyramid.levels().level(self.level);
+        let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
+            self.row(left, y, cells);
+        });
+        let whole = surroundings.whole(rule.threshold);
         let mut of_channels: [Bands; 3] = [[[[0; TILE]; TILE]; 2]; 3];
         for (cells, of_channel) in surroundings.channels.iter().zip(&mut of_channels) {
             bands(cells, of_channel);
         }
-        let size = self.tones.pyramid.levels().level(self.level);
-        for (j, y) in (top..(top + HALF).min(size.height.div_ceil(2))).enumerate() {
-            for (i, x) in (left..(left + HALF).min(size.width.div_ceil(2))).enumerate() {
-                let child = |dx: usize, dy: usize| {
-                    let (column, row) = (2 * i + dx, 2 * j + dy);
-                    if 2 * x + dx as u32 >= size.width || 2 * y + dy as u32 >= size.height {
-                        return Known::default();
-                    }
-                    let depth = surroundings.depths[row + APRON][column + APRON];
-                    if !whole[row][column] {
-                        return Known { validity: 0, depth, value: Moments::default() };
-                    }
-                    let mut responses = [0; 6];
-                    for (pair, of_channel) in responses.chunks_exact_mut(2).zip(&of_channels) {
-                        pair[0] = of_channel[0][row][column];
-                        pair[1] = of_channel[1][row][column];
-                    }
-                    Known { validity: FULL, depth, value: Moments::of(responses) }
+        let quads = Quads::new(&of_channels, tie(left, top, 1));
+        for (j, y) in (top..(top + half).min(size.height.div_ceil(2))).enumerate() {
+            for (i, x) in (left..(left + half).min(size.width.div_ceil(2))).enumerate() {
+                let (column, row) = (2 * i, 2 * j);
+                let depth = |dx: usize, dy: usize| surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
+                let inside =
+                    |dx: usize, dy: usize| 2 * x + (dx as u32) < size.width && 2 * y + (dy as u32) < size.height;
+                let whole = |dx: usize, dy: usize| {
+                    inside(dx, dy) && whole.as_ref().is_none_or(|whole| whole[row + dy][column + dx])
                 };
-                let children = [child(0, 0), child(1, 0), child(0, 1), child(1, 1)];
-                let known = pulled(&children, rule, tie(x, y, 1));
+                let known = if whole(0, 0) && whole(1, 0) && whole(0, 1) && whole(1, 1) {
+                    // They lie under each other's kernel: they are of one surface.
+                    let depth = depth(0, 0).max(depth(1, 0)).max(depth(0, 1).max(depth(1, 1)));
+                    Known { validity: FULL, depth, value: quads.moments(i, j) }
+                } else {
+                    let child = |dx: usize, dy: usize| {
+                        if !inside(dx, dy) {
+                            return Known::default();
+                        }
+                        let mut responses = [0; BANDS];
+                        for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
+                            *response = band[row + dy][column + dx];
+                        }
+                        let validity = if whole(dx, dy) { FULL } else { 0 };
+                        Known { validity, depth: depth(dx, dy), value: Moments::of(responses) }
+                    };
+                    pulled(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)], rule, tie(x, y, 1))
+                };
                 pyramid.set(pyramid.index(1, x, y), State::Pulled, known);
             }
         }

@@ -25,7 +25,8 @@ use super::noise::{self, Scale};
 use super::push_pull::{Picture, Rule, above, pushed};
 use super::pyramid::{Cell, Known, Pyramid, State};
 use super::statistics::{BANDS, Moments, Statistics};
-use super::steerable;
+use super::steerable::{self, COLUMNS};
+use super::tile::Row;
 use super::tone::Tone;
 use super::validity::{FULL, Gamma};
 use super::ycbcr;
@@ -38,6 +39,21 @@ pub const MOST_LEVELS: u32 = 8;
 pub trait Scene: Picture<Value = Tone> {
     /// Names each hole that is to be filled, row by row.
     fn holes(&self, hole: impl FnMut(u32, u32));
+
+    /// The cells of a row from `left` on, as many as there are; those of `cells` beyond the picture's border may hold anything.
+    #[inline]
+    fn row(&self, left: u32, y: u32, cells: &mut Row) {
+        let [width, _] = self.size();
+        for x in left..width.min(left + COLUMNS as u32) {
+            cells.set((x - left) as usize, &self.known(x, y));
+        }
+    }
+
+    /// The source of a cell's tone.
+    #[inline]
+    fn source(&self, x: u32, y: u32) -> u32 {
+        self.known(x, y).value.source
+    }
 
     /// How far what a cell holds has moved in the last `age` frames, in cells to the right and down, to the nearest.
     fn displacement(&self, source: u32, age: u32) -> [i32; 2];
@@ -168,9 +184,9 @@ fn synthesise<S: Scene, const DENSE: bool>(
             if own.validity == FULL {
                 return;
             }
-            let tone = sample(&tones, level, x, y, own.depth, rule, |tone| tone);
+            let tone = sample(&tones, level, x, y, own.depth, rule, |tone| *tone);
             let tone = tone.map(|tone| {
-                let statistics = sample(&moments, 0, x, y, own.depth, rule, |moments: Moments| moments.finished());
+                let statistics = sample(&moments, 0, x, y, own.depth, rule, Moments::finished);
                 let Some(statistics) = statistics else { return tone };
                 let motion = scene.displacement(tone.source, recipe.age);
                 // To the nearest cell of this level.
@@ -196,7 +212,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
 
 /// Completes a cell of the level above the responses, and turns its moments into what is asked of it. What is pulled from it, is
 /// before.
-fn finish<P: Picture<Value = Tone>>(demand: &mut Demand<'_, '_, Moments, Responses<'_, '_, '_, P>>, x: u32, y: u32) {
+fn finish<P: Scene>(demand: &mut Demand<'_, '_, Moments, Responses<'_, '_, '_, P>>, x: u32, y: u32) {
     let index = demand.pyramid.index(1, x, y);
     if demand.pyramid.state(index) == State::Completed {
         return;

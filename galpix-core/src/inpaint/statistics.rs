@@ -4,6 +4,7 @@
 //! `E[X^2] - E[X]^2` (section 3.3.1 of the paper, where the sign is the other way round). Push-pull is such a mean. All means
 //! here are rounded to the nearest, so the difference can become negative by a trifle: then it counts as 0.
 
+use super::demand::Even;
 use super::mean::{divided, signed};
 use super::push_pull::Value;
 use super::root::nearest;
@@ -63,7 +64,7 @@ impl Moments {
 
     /// What [`Self::finish`] put here.
     #[inline(always)]
-    pub(super) fn finished(self) -> Statistics {
+    pub(super) fn finished(&self) -> Statistics {
         Statistics { means: self.means, deviations: self.squares.map(|deviation| deviation as i16) }
     }
 }
@@ -79,10 +80,20 @@ impl Value for Moments {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
         if *weights == [16; 4] {
-            return Self::mean_of_known(values, tie);
+            let [a, b, c, d] = values;
+            return Self::mean_of_known([a, b, c, d], tie);
+        }
+        let mut mean = Self::default();
+        if *weights == [9, 3, 3, 1] {
+            let [a, b, c, d] = values;
+            for band in 0..BANDS {
+                mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
+                let sum = 9 * a.squares[band] + 3 * (b.squares[band] + c.squares[band]) + d.squares[band];
+                mean.squares[band] = (sum + 7 + tie) >> 4;
+            }
+            return mean;
         }
         let sum = weights.iter().sum();
-        let mut mean = Self::default();
         for band in 0..BANDS {
             mean.means[band] = signed(values.map(|value| i32::from(value.means[band])), weights, tie) as i16;
             let squares = values.iter().zip(weights).fold(0, |sum, (value, weight)| sum + value.squares[band] * weight);
@@ -92,10 +103,9 @@ impl Value for Moments {
     }
 }
 
-impl Moments {
-    /// The mean of four that weigh the same: what most means are, without a product.
+impl Even for Moments {
     #[inline(always)]
-    fn mean_of_known([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+    fn mean_of_known([a, b, c, d]: [&Self; 4], tie: u32) -> Self {
         let mut mean = Self::default();
         for band in 0..BANDS {
             let sum = i32::from(a.means[band])
@@ -109,6 +119,12 @@ impl Moments {
     }
 }
 
+/// By nine, three, three and one sixteenths, to the nearest.
+#[inline(always)]
+const fn linear([a, b, c, d]: [i16; 4], tie: u32) -> i16 {
+    ((9 * a as i32 + 3 * (b as i32 + c as i32) + d as i32 + 7 + tie as i32) >> 4) as i16
+}
+
 impl Value for Statistics {
     /// Mean and deviation are smooth where they are known: between places they are interpolated as they are.
     #[inline(always)]
@@ -116,14 +132,10 @@ impl Value for Statistics {
         let mut mean = Self::default();
         let [a, b, c, d] = values;
         if *weights == [9, 3, 3, 1] {
-            let linear = |[a, b, c, d]: [i16; 4]| {
-                let sum = 9 * i32::from(a) + 3 * (i32::from(b) + i32::from(c)) + i32::from(d);
-                ((sum + 7 + tie as i32) >> 4) as i16
-            };
             for band in 0..BANDS {
-                mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]]);
+                mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
                 mean.deviations[band] =
-                    linear([a.deviations[band], b.deviations[band], c.deviations[band], d.deviations[band]]);
+                    linear([a.deviations[band], b.deviations[band], c.deviations[band], d.deviations[band]], tie);
             }
             return mean;
         }
@@ -165,7 +177,13 @@ mod tests {
             for tie in 0..2 {
                 let values = [value(k), value(-3 * k), value(5), value(k + 1)];
                 let mean = Statistics::mean(&values, &[9, 3, 3, 1], tie);
+                let moments = values.map(|value| Moments::of(value.means));
+                let sampled = Moments::mean(&moments, &[9, 3, 3, 1], tie);
                 for band in 0..BANDS {
+                    let sum =
+                        moments.iter().zip([9, 3, 3, 1]).map(|(value, weight)| value.squares[band] * weight).sum();
+                    assert_eq!(sampled.squares[band], divided(sum, 16, tie));
+                    assert_eq!(sampled.means, mean.means);
                     let means = values.map(|value| i32::from(value.means[band]));
                     assert_eq!(i32::from(mean.means[band]), signed(means, &[9, 3, 3, 1], tie));
                     let deviations = values.map(|value| i32::from(value.deviations[band]));

@@ -1,10 +1,12 @@
 //! What the metameric rung takes means of: luma, chroma, and the motion that goes with them.
 
-use super::map::{OfGalpixel, Uncovered};
+use super::demand::Even;
+use super::map::{OfGalpixel, Uncovered, pyramid_depth};
 use super::mean::signed;
 use super::metamer::Scene;
 use super::push_pull::{Picture, Value};
-use super::steerable::LARGEST;
+use super::steerable::{COLUMNS, LARGEST};
+use super::tile::Row;
 use super::ycbcr;
 use crate::colour::Colour;
 use crate::galpixel::{Budget, Class};
@@ -39,10 +41,13 @@ impl Value for Tone {
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
         let [a, b, c, d] = values;
         if *weights == [16; 4] {
+            return Self::mean_of_known([a, b, c, d], tie);
+        }
+        if *weights == [9, 3, 3, 1] {
             let mut mean = *a;
             for (channel, to) in mean.channels.iter_mut().enumerate() {
-                let sum = a.channels[channel] + b.channels[channel] + c.channels[channel] + d.channels[channel];
-                *to = (sum + 1 + tie as i16) >> 2;
+                let [a, b, c, d] = [a.channels[channel], b.channels[channel], c.channels[channel], d.channels[channel]];
+                *to = (9 * a + 3 * (b + c) + d + 7 + tie as i16) >> 4;
             }
             return mean;
         }
@@ -57,6 +62,18 @@ impl Value for Tone {
             *to = signed(values.map(|value| i32::from(value.channels[channel])), weights, tie) as i16;
         }
         Self { channels, source }
+    }
+}
+
+impl Even for Tone {
+    #[inline(always)]
+    fn mean_of_known([a, b, c, d]: [&Self; 4], tie: u32) -> Self {
+        let mut mean = *a;
+        for (channel, to) in mean.channels.iter_mut().enumerate() {
+            let sum = a.channels[channel] + b.channels[channel] + c.channels[channel] + d.channels[channel];
+            *to = (sum + 1 + tie as i16) >> 2;
+        }
+        mean
     }
 }
 
@@ -111,6 +128,35 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
                 x += run;
             }
         }
+    }
+
+    #[inline]
+    fn row(&self, left: u32, y: u32, cells: &mut Row) {
+        let Some(row) = self.map.grid().row(y as i32) else { return };
+        let count = ((self.map.grid().width() - left) as usize).min(COLUMNS);
+        let (first, bits) = ((row + left) as usize, u32::from(self.map.record().depth().bits));
+        let (mut keys, mut colours) = ([0; COLUMNS], [0; COLUMNS]);
+        for (to, key) in keys.iter_mut().zip(self.map.keys(first..first + count)) {
+            *to = key;
+        }
+        for (to, colour) in colours.iter_mut().zip(self.map.colours(first..first + count)) {
+            *to = colour;
+        }
+        for x in 0..COLUMNS {
+            let depth = pyramid_depth(keys[x] & ((1 << bits) - 1), bits);
+            let class = keys[x] >> bits;
+            cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
+            cells.known[x] = -((class == Class::Galpixel as u32) as i32);
+            let [luma, blue, red] = ycbcr::of_rgb(L::Colour::to_rgb888(colours[x]));
+            cells.channels[0][x] = luma;
+            cells.channels[1][x] = blue;
+            cells.channels[2][x] = red;
+        }
+    }
+
+    #[inline]
+    fn source(&self, x: u32, y: u32) -> u32 {
+        self.map.grid().cell(x as i32, y as i32).unwrap_or_default()
     }
 
     fn displacement(&self, source: u32, age: u32) -> [i32; 2] {

@@ -130,9 +130,9 @@ fn a_picture_comes_back_from_its_pyramid() {
     let pictures: Vec<(&str, f64, Plane)> = vec![
         // Waves of 20 cells with a fine grain; fine weave; a step; smooth hills.
         ("weave", 26.0, Plane::new(97, 64, |x, y| (waves(x, y) + 20.0 * noise(x, y)) as i16)),
-        ("step", 32.0, Plane::new(96, 65, |x, y| if x + y / 3 > 50 { 400 } else { -300 })),
-        ("hills", 50.0, Plane::new(64, 64, |x, y| (f64::from(x * y) / 8.0) as i16)),
-        ("grain", 25.0, Plane::new(64, 64, |x, y| (120.0 * noise(x, y)) as i16)),
+        ("step", 30.0, Plane::new(96, 65, |x, y| if x + y / 3 > 50 { 400 } else { -300 })),
+        ("hills", 40.0, Plane::new(64, 64, |x, y| (f64::from(x * y) / 8.0) as i16)),
+        ("grain", 20.0, Plane::new(64, 64, |x, y| (120.0 * noise(x, y)) as i16)),
     ];
     for (name, least, picture) in &pictures {
         for levels in 3..=5 {

@@ -1,0 +1,151 @@
+//! Tiles: cells that are worked on side by side.
+
+use super::pyramid::Known;
+use super::steerable::{APRON, COLUMNS, Cells, ROWS, TILE};
+use super::tone::Tone;
+use super::validity::FULL;
+
+/// Neighbours of a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Row {
+    /// Luma and chroma.
+    pub channels: [[i16; COLUMNS]; 3],
+    /// Depths.
+    pub depths: [i32; COLUMNS],
+    /// -1 for a cell that is known, or else 0.
+    pub known: [i32; COLUMNS],
+}
+
+impl Row {
+    /// Sets a cell; none beyond the last.
+    #[inline(always)]
+    pub fn set(&mut self, column: usize, known: &Known<Tone>) {
+        if column >= COLUMNS {
+            return;
+        }
+        for (channel, level) in self.channels.iter_mut().zip(known.value.channels) {
+            channel[column] = level;
+        }
+        self.depths[column] = known.depth as i32;
+        self.known[column] = -((known.validity == FULL) as i32);
+    }
+
+    /// Moves all cells to the right and repeats the first one.
+    #[inline(always)]
+    fn shifted(&mut self, by: usize) {
+        fn lane<T: Copy>(lane: &mut [T; COLUMNS], by: usize) {
+            lane.copy_within(0..COLUMNS - by, by);
+            let first = lane[by];
+            lane.iter_mut().take(by).for_each(|cell| *cell = first);
+        }
+        self.channels.iter_mut().for_each(|channel| lane(channel, by));
+        lane(&mut self.depths, by);
+        lane(&mut self.known, by);
+    }
+
+    /// Repeats the last one of `count` cells.
+    #[inline(always)]
+    fn extended(&mut self, count: usize) {
+        fn lane<T: Copy>(lane: &mut [T; COLUMNS], count: usize) {
+            if let Some(&last) = lane.get(count.wrapping_sub(1)) {
+                lane.iter_mut().skip(count).for_each(|cell| *cell = last);
+            }
+        }
+        self.channels.iter_mut().for_each(|channel| lane(channel, count));
+        lane(&mut self.depths, count);
+        lane(&mut self.known, count);
+    }
+}
+
+/// A tile and what lies around it.
+pub struct Surroundings {
+    /// Luma and chroma.
+    pub channels: [Cells; 3],
+    /// Depths.
+    pub depths: [[i32; COLUMNS]; ROWS],
+    /// -1 for a cell that is known, or else 0.
+    pub known: [[i32; COLUMNS]; ROWS],
+}
+
+/// Lower than any depth by more than any threshold.
+const UNKNOWN: i32 = -1 << 28;
+
+impl Surroundings {
+    /// Those of the tile that begins at `left`, `top` in a picture of `width` x `height` cells. `row` gives the cells of a row from a
+    /// column on; the picture's border is repeated.
+    #[inline(always)]
+    pub fn new(left: u32, top: u32, [width, height]: [u32; 2], mut row: impl FnMut(u32, u32, &mut Row)) -> Self {
+        let mut surroundings =
+            Self { channels: [[[0; COLUMNS]; ROWS]; 3], depths: [[0; COLUMNS]; ROWS], known: [[0; COLUMNS]; ROWS] };
+        let first = left.saturating_sub(APRON as u32);
+        let missing = APRON - (left - first) as usize;
+        let mut cells = Row::default();
+        let mut last = u32::MAX;
+        for line in 0..ROWS {
+            let y = (top + line as u32).saturating_sub(APRON as u32).min(height - 1);
+            if y != last {
+                row(first, y, &mut cells);
+                if missing > 0 {
+                    cells.shifted(missing);
+                }
+                let count = (width - first) as usize + missing;
+                if count < COLUMNS {
+                    cells.extended(count);
+                }
+                last = y;
+            }
+            for (channel, of_row) in surroundings.channels.iter_mut().zip(&cells.channels) {
+                channel[line] = *of_row;
+            }
+            surroundings.depths[line] = cells.depths;
+            surroundings.known[line] = cells.known;
+        }
+        surroundings
+    }
+
+    /// Whether all cells under the kernel are known and within `threshold` of each other's depth, for each cell of the tile; `None`
+    /// if that is so for all of them, because it is for all cells there are.
+    #[inline]
+    pub fn whole(&self, threshold: u32) -> Option<[[bool; TILE]; TILE]> {
+        let threshold = threshold.min(1 << 27) as i32;
+        let (mut low, mut high) = ([i32::MAX; COLUMNS], [i32::MIN; COLUMNS]);
+        for (depths, known) in self.depths.iter().zip(&self.known) {
+            narrow(&mut low, &mut high, depths, known);
+        }
+        let (mut lowest, mut highest) = (i32::MAX, i32::MIN);
+        for x in 0..TILE + 2 * APRON {
+            lowest = lowest.min(low[x]);
+            highest = highest.max(high[x]);
+        }
+        if highest - lowest <= threshold { None } else { Some(self.whole_cells(threshold)) }
+    }
+
+    #[inline(never)]
+    fn whole_cells(&self, threshold: i32) -> [[bool; TILE]; TILE] {
+        let mut whole = [[false; TILE]; TILE];
+        for (y, whole) in whole.iter_mut().enumerate() {
+            let (mut low, mut high) = ([i32::MAX; COLUMNS], [i32::MIN; COLUMNS]);
+            for line in y..y + 1 + 2 * APRON {
+                narrow(&mut low, &mut high, &self.depths[line], &self.known[line]);
+            }
+            for (x, whole) in whole.iter_mut().enumerate() {
+                let (mut lowest, mut highest) = (low[x], high[x]);
+                for column in x + 1..x + 1 + 2 * APRON {
+                    lowest = lowest.min(low[column]);
+                    highest = highest.max(high[column]);
+                }
+                *whole = highest - lowest <= threshold;
+            }
+        }
+        whole
+    }
+}
+
+/// The range of depths in each column goes on to another row; one that is not known makes it endless.
+#[inline(always)]
+fn narrow(low: &mut [i32; COLUMNS], high: &mut [i32; COLUMNS], depths: &[i32; COLUMNS], known: &[i32; COLUMNS]) {
+    for x in 0..COLUMNS {
+        low[x] = low[x].min(depths[x] & known[x] | UNKNOWN & !known[x]);
+        high[x] = high[x].max(depths[x]);
+    }
+}
