@@ -2,7 +2,8 @@
 
 use super::mean::tie;
 use super::push_pull::{Rule, Value, above, pulled, pushed, sampled};
-use super::pyramid::{Known, Pyramid, State};
+use super::pyramid::{Known, State};
+use super::store::Store;
 use super::validity::FULL;
 
 /// Values of which four that weigh the same have a mean without a product: most of what is pulled.
@@ -13,15 +14,18 @@ pub trait Even: Value {
 
 /// What lies under a pyramid.
 pub trait Base<V> {
-    /// Pulls a cell of level 1, and any others that come with it.
-    fn pull(&mut self, pyramid: &mut Pyramid<'_, V>, rule: &Rule, x: u32, y: u32);
+    /// The levels that come together, from 1 on.
+    const LEVELS: u32;
+
+    /// Pulls those cells of these levels that come with a cell of level 1.
+    fn pull(&mut self, pyramid: &mut Store<'_, V>, rule: &Rule, x: u32, y: u32);
 }
 
 /// A pyramid, and what lies under it.
 #[derive(Debug)]
 pub struct Demand<'f, 's, V, B> {
     /// The levels from 1 on.
-    pub pyramid: &'f mut Pyramid<'s, V>,
+    pub pyramid: &'f mut Store<'s, V>,
     /// How they are pulled and pushed.
     pub rule: &'f Rule,
     /// Level 0.
@@ -38,8 +42,8 @@ impl<V: Even, B: Base<V>> Demand<'_, '_, V, B> {
     }
 
     fn pull(&mut self, level: u32, x: u32, y: u32) {
-        if level == 1 {
-            return self.base.pull(self.pyramid, self.rule, x, y);
+        if level <= B::LEVELS {
+            return self.base.pull(self.pyramid, self.rule, x << (level - 1), y << (level - 1));
         }
         let (left, top) = (x << 1, y << 1);
         let places = [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)];
@@ -49,53 +53,48 @@ impl<V: Even, B: Base<V>> Demand<'_, '_, V, B> {
         let [a, b, c, d] = places;
         let at = |(x, y): (u32, u32)| self.pyramid.index(level - 1, x, y);
         let places = [at(a), at(b), at(c), at(d)];
-        let known = match self.even(places, tie(x, y, level)) {
-            Some(known) => known,
-            None => {
-                let [a, b, c, d] = places;
-                let child = |at: usize| self.pyramid.known(at);
-                pulled(&[child(a), child(b), child(c), child(d)], self.rule, tie(x, y, level))
-            }
-        };
+        let [a, b, c, d] = places;
+        let child = |at: usize| self.pyramid.known(at);
+        let known = pulled_alike(&[child(a), child(b), child(c), child(d)], self.rule, tie(x, y, level));
         let index = self.pyramid.index(level, x, y);
-        self.pyramid.set(index, State::Pulled, known);
-    }
-
-    /// What [`pulled`] makes of four cells that are known and of one surface.
-    #[inline(always)]
-    fn even(&self, [a, b, c, d]: [usize; 4], tie: u32) -> Option<Known<V>> {
-        let (a, b, c, d) =
-            (self.pyramid.parts(a)?, self.pyramid.parts(b)?, self.pyramid.parts(c)?, self.pyramid.parts(d)?);
-        let nearest = a.1.min(b.1).min(c.1.min(d.1));
-        let depth = a.1.max(b.1).max(c.1.max(d.1));
-        if a.0 & b.0 & c.0 & d.0 != FULL || depth - nearest > self.rule.threshold {
-            return None;
-        }
-        Some(Known { validity: FULL, depth, value: V::mean_of_known([a.2, b.2, c.2, d.2], tie) })
+        self.pyramid.set(index, State::Pulled, &known);
     }
 
     /// Completes a cell of a level from 1 on, and before it what that needs.
     pub fn want_completed(&mut self, level: u32, x: u32, y: u32) {
         self.want_pulled(level, x, y);
         let index = self.pyramid.index(level, x, y);
-        let own = self.pyramid.known(index);
-        if self.pyramid.state(index) == State::Completed || own.validity == FULL {
+        if self.pyramid.state(index) == State::Completed || self.pyramid.standing(index).validity() == FULL {
             return;
         }
+        let own = self.pyramid.known(index);
         if level < self.pyramid.levels().top() {
             for (x, y) in above(x, y) {
                 self.want_completed(level + 1, x, y);
             }
         }
         let from_above = sample(self.pyramid, level, x, y, own.depth, self.rule, |value| *value);
-        self.pyramid.set(index, State::Completed, pushed(own, from_above, tie(x, y, level)));
+        self.pyramid.set(index, State::Completed, &pushed(own, from_above, tie(x, y, level)));
     }
+}
+
+/// [`pulled`], where most cells are known and of one surface.
+#[inline(always)]
+pub fn pulled_alike<V: Even>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Known<V> {
+    let [a, b, c, d] = children;
+    let nearest = a.depth.min(b.depth).min(c.depth.min(d.depth));
+    let depth = a.depth.max(b.depth).max(c.depth.max(d.depth));
+    if a.validity & b.validity & c.validity & d.validity == FULL && depth - nearest <= rule.threshold {
+        let value = V::mean_of_known([&a.value, &b.value, &c.value, &d.value], tie);
+        return Known { validity: FULL, depth, value };
+    }
+    pulled(children, rule, tie)
 }
 
 /// What a cell of any level gets from the completed level above, of which `of` is taken.
 #[inline(always)]
 pub fn sample<V: Value, W: Value>(
-    pyramid: &Pyramid<'_, V>,
+    pyramid: &Store<'_, V>,
     level: u32,
     x: u32,
     y: u32,
@@ -108,10 +107,10 @@ pub fn sample<V: Value, W: Value>(
     }
     let [a, b, c, d] = above(x, y);
     let at = |(x, y): (u32, u32)| {
-        let Some((validity, depth, value)) = pyramid.parts(pyramid.index(level + 1, x, y)) else {
-            return Known::default();
-        };
-        Known { validity, depth, value: of(value) }
+        let index = pyramid.index(level + 1, x, y);
+        let Some(value) = pyramid.value(index) else { return Known::default() };
+        let standing = pyramid.standing(index);
+        Known { validity: standing.validity(), depth: standing.depth(), value: of(value) }
     };
     let coarse = [at(a), at(b), at(c), at(d)];
     sampled(&coarse, depth, rule, tie(x, y, level))

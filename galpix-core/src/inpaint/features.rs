@@ -6,13 +6,15 @@
 //!
 //! Responses themselves are not stored: a hole has none, and everything above sees their means only.
 
-use super::demand::{Base, Demand};
+use super::demand::{Base, Demand, pulled_alike};
 use super::mean::tie;
 use super::metamer::Scene;
+use super::needs::Needs;
 use super::push_pull::{Rule, pulled};
-use super::pyramid::{Known, Pyramid, State};
+use super::pyramid::{Known, State};
 use super::statistics::{BANDS, Moments};
 use super::steerable::{APRON, Bands, TILE, bands};
+use super::store::Store;
 use super::tile::{Row, Surroundings};
 use super::tone::Tone;
 use super::validity::FULL;
@@ -25,8 +27,10 @@ const HALF: usize = TILE / 2;
 pub struct Below<'p, P>(pub &'p P);
 
 impl<P: Scene> Base<Tone> for Below<'_, P> {
+    const LEVELS: u32 = 1;
+
     /// Pulls 8 x 1 cells.
-    fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, rule: &Rule, x: u32, y: u32) {
+    fn pull(&mut self, pyramid: &mut Store<'_, Tone>, rule: &Rule, x: u32, y: u32) {
         let [width, height] = self.0.size();
         let (left, top) = (x / HALF as u32 * HALF as u32, y << 1);
         let (mut upper, mut lower) = (Row::default(), Row::default());
@@ -61,7 +65,7 @@ impl<P: Scene> Base<Tone> for Below<'_, P> {
                 let children = [child(left, top), child(left + 1, top), child(left, top + 1), child(left + 1, top + 1)];
                 pulled(&children, rule, tie(x, y, 1))
             };
-            pyramid.set(pyramid.index(1, x, y), State::Pulled, known);
+            pyramid.set(pyramid.index(1, x, y), State::Pulled, &known);
         }
     }
 }
@@ -73,6 +77,8 @@ pub struct Responses<'t, 'f, 's, P> {
     pub tones: &'t mut Demand<'f, 's, Tone, Below<'t, P>>,
     /// The level.
     pub level: u32,
+    /// What of the level above is asked for: of what is not, no moments are kept.
+    pub needs: &'t Needs<'t>,
 }
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
@@ -105,11 +111,17 @@ impl Quads {
         for ((means, squares), band) in quads.means.iter_mut().zip(&mut quads.squares).zip(of_bands) {
             for (y, (means, squares)) in means.iter_mut().zip(squares).enumerate() {
                 let (upper, lower) = (&band[2 * y], &band[2 * y + 1]);
+                // Down the columns first, where neighbours lie side by side.
+                let (mut sums, mut sums_of_squares) = ([0; TILE], [0; TILE]);
+                for x in 0..TILE {
+                    sums[x] = upper[x] + lower[x];
+                    let (a, b) = (i32::from(upper[x]), i32::from(lower[x]));
+                    sums_of_squares[x] = a * a + b * b;
+                }
                 for x in 0..HALF {
-                    let [a, b, c, d] = [upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]].map(i32::from);
                     let up = 1 + ((x as u32 ^ y as u32 ^ tie) & 1);
-                    means[x] = ((a + b + c + d + up as i32) >> 2) as i16;
-                    squares[x] = ((a * a + b * b + c * c + d * d) as u32 + up) >> 2;
+                    means[x] = (sums[2 * x] + sums[2 * x + 1] + up as i16) >> 2;
+                    squares[x] = ((sums_of_squares[2 * x] + sums_of_squares[2 * x + 1]) as u32 + up) >> 2;
                 }
             }
         }
@@ -127,12 +139,13 @@ impl Quads {
     }
 }
 
-impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
-    /// Pulls the tile of 8 x 8 cells that this one lies in.
-    #[inline(never)]
-    fn pull(&mut self, pyramid: &mut Pyramid<'_, Moments>, rule: &Rule, x: u32, y: u32) {
-        let half = HALF as u32;
-        let (left, top) = (x / half * half, y / half * half);
+/// Cells of a level of a pulled tile, or of its quarters.
+type Part<const CELLS: usize> = [Known<Moments>; CELLS];
+
+impl<P: Scene> Responses<'_, '_, '_, P> {
+    /// The cells of level 1 of the tile that begins at `left`, `top` of that level.
+    #[inline(always)]
+    fn first(&mut self, left: u32, top: u32, rule: &Rule) -> Part<64> {
         let size = self.tones.pyramid.levels().level(self.level);
         let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
             self.row(left, y, cells);
@@ -143,35 +156,90 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
             bands(cells, of_channel);
         }
         let quads = Quads::new(&of_channels, tie(left, top, 1));
-        for (j, y) in (top..(top + half).min(size.height.div_ceil(2))).enumerate() {
-            for (i, x) in (left..(left + half).min(size.width.div_ceil(2))).enumerate() {
-                let (column, row) = (2 * i, 2 * j);
-                let depth = |dx: usize, dy: usize| surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
-                let inside =
-                    |dx: usize, dy: usize| 2 * x + (dx as u32) < size.width && 2 * y + (dy as u32) < size.height;
-                let whole = |dx: usize, dy: usize| {
-                    inside(dx, dy) && whole.as_ref().is_none_or(|whole| whole[row + dy][column + dx])
+        let mut cells = [Known::default(); 64];
+        for (at, cell) in cells.iter_mut().enumerate() {
+            let (i, j) = (at % HALF, at / HALF);
+            let (x, y, column, row) = (left + i as u32, top + j as u32, 2 * i, 2 * j);
+            let depth = |dx: usize, dy: usize| surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
+            let inside = |dx: usize, dy: usize| 2 * x + (dx as u32) < size.width && 2 * y + (dy as u32) < size.height;
+            let whole = |dx: usize, dy: usize| {
+                whole.as_ref().is_none_or(|whole| whole[row + dy][column + dx]) && inside(dx, dy)
+            };
+            *cell = if whole(0, 0) & whole(1, 0) & whole(0, 1) & whole(1, 1) {
+                // They lie under each other's kernel: they are of one surface.
+                let depth = depth(0, 0).max(depth(1, 0)).max(depth(0, 1).max(depth(1, 1)));
+                Known { validity: FULL, depth, value: quads.moments(i, j) }
+            } else if inside(0, 0) {
+                let child = |dx: usize, dy: usize| {
+                    if !inside(dx, dy) {
+                        return Known::default();
+                    }
+                    let mut responses = [0; BANDS];
+                    for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
+                        *response = band[row + dy][column + dx];
+                    }
+                    let validity = if whole(dx, dy) { FULL } else { 0 };
+                    Known { validity, depth: depth(dx, dy), value: Moments::of(responses) }
                 };
-                let known = if whole(0, 0) && whole(1, 0) && whole(0, 1) && whole(1, 1) {
-                    // They lie under each other's kernel: they are of one surface.
-                    let depth = depth(0, 0).max(depth(1, 0)).max(depth(0, 1).max(depth(1, 1)));
-                    Known { validity: FULL, depth, value: quads.moments(i, j) }
-                } else {
-                    let child = |dx: usize, dy: usize| {
-                        if !inside(dx, dy) {
-                            return Known::default();
-                        }
-                        let mut responses = [0; BANDS];
-                        for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
-                            *response = band[row + dy][column + dx];
-                        }
-                        let validity = if whole(dx, dy) { FULL } else { 0 };
-                        Known { validity, depth: depth(dx, dy), value: Moments::of(responses) }
-                    };
-                    pulled(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)], rule, tie(x, y, 1))
-                };
-                pyramid.set(pyramid.index(1, x, y), State::Pulled, known);
+                pulled(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)], rule, tie(x, y, 1))
+            } else {
+                Known::default()
+            };
+        }
+        cells
+    }
+}
+
+/// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
+#[inline(always)]
+fn keep(store: &mut Store<'_, Moments>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<Moments>]) {
+    for (row, y) in cells.chunks_exact(side).zip(top..) {
+        for (cell, x) in row.iter().zip(left..) {
+            store.set(store.index(level, x, y), State::Pulled, cell);
+        }
+    }
+}
+
+/// The level above a tile's, which has `2 side` x `2 side` cells.
+#[inline(always)]
+fn halved<const CELLS: usize>(
+    cells: &[Known<Moments>],
+    side: usize,
+    (left, top): (u32, u32),
+    level: u32,
+    rule: &Rule,
+) -> Part<CELLS> {
+    let mut halved = [Known::default(); CELLS];
+    for (at, to) in halved.iter_mut().enumerate() {
+        let (i, j) = (at % side, at / side);
+        let child = |dx: usize, dy: usize| cells.get((2 * j + dy) * 2 * side + 2 * i + dx).copied().unwrap_or_default();
+        let children = [child(0, 0), child(1, 0), child(0, 1), child(1, 1)];
+        *to = pulled_alike(&children, rule, tie(left + i as u32, top + j as u32, level));
+    }
+    halved
+}
+
+impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
+    const LEVELS: u32 = 4;
+
+    /// Pulls the tile that a cell lies in: 8 x 8 cells of level 1, up to one of level 4.
+    #[inline(never)]
+    fn pull(&mut self, pyramid: &mut Store<'_, Moments>, rule: &Rule, x: u32, y: u32) {
+        let (left, top) = (x >> 3 << 3, y >> 3 << 3);
+        let first = self.first(left, top, rule);
+        let asked = self.needs.bits(self.level + 1, left, top);
+        for (at, cell) in first.iter().enumerate() {
+            if asked >> at & 1 != 0 {
+                let (x, y) = (left + at as u32 % 8, top + at as u32 / 8);
+                pyramid.set(pyramid.index(1, x, y), State::Pulled, cell);
             }
         }
+        let place = |level: u32| (left >> (level - 1), top >> (level - 1));
+        let second: Part<16> = halved(&first, 4, place(2), 2, rule);
+        keep(pyramid, 2, place(2), 4, &second);
+        let third: Part<4> = halved(&second, 2, place(3), 3, rule);
+        keep(pyramid, 3, place(3), 2, &third);
+        let fourth: Part<1> = halved(&third, 1, place(4), 4, rule);
+        keep(pyramid, 4, place(4), 1, &fourth);
     }
 }

@@ -23,9 +23,10 @@ use super::mean::tie;
 use super::needs::{self, Needs};
 use super::noise::{self, Scale};
 use super::push_pull::{Picture, Rule, above, pushed};
-use super::pyramid::{Cell, Known, Pyramid, State};
+use super::pyramid::{Known, State};
 use super::statistics::{BANDS, Moments, Statistics};
 use super::steerable::{self, COLUMNS};
+use super::store::{Standing, Store};
 use super::tile::Row;
 use super::tone::Tone;
 use super::validity::{FULL, Gamma};
@@ -90,9 +91,11 @@ impl Recipe {
 #[derive(Debug)]
 pub struct Scratch<'s> {
     /// [`cells`] of them.
-    pub tones: &'s mut [Cell<Tone>],
-    /// [`cells`] of them.
-    pub moments: &'s mut [Cell<Moments>],
+    pub tones: &'s mut [Tone],
+    /// As many.
+    pub moments: &'s mut [Moments],
+    /// As many of each.
+    pub standings: [&'s mut [Standing]; 2],
     /// [`needs::tiles`] of them, up to the level of the recipe.
     pub needs: &'s mut [needs::Tile],
     /// The noise that was last made.
@@ -102,7 +105,7 @@ pub struct Scratch<'s> {
 /// Bytes of scratch memory for a picture of `width` x `height` cells and up to `levels` levels.
 #[must_use]
 pub const fn bytes(width: u32, height: u32, levels: u32) -> usize {
-    cells(width, height) * (size_of::<Cell<Tone>>() + size_of::<Cell<Moments>>())
+    cells(width, height) * (size_of::<Tone>() + size_of::<Moments>() + 2 * size_of::<Standing>())
         + needs::tiles(width, height, levels) * size_of::<needs::Tile>()
         + size_of::<noise::Tiles>()
 }
@@ -129,7 +132,8 @@ fn synthesise<S: Scene, const DENSE: bool>(
     let levels = Levels::new(width, height);
     let last = recipe.levels.clamp(1, MOST_LEVELS).min(levels.top());
     let mut needs = Needs::new(levels, last, scratch.needs)?;
-    let mut tones = Pyramid::new(width, height, scratch.tones)?;
+    let [of_tones, of_moments] = &mut scratch.standings;
+    let mut tones = Store::new(width, height, of_tones, scratch.tones)?;
     let mut holes = 0u32;
     scene.holes(|x, y| {
         needs.ask(0, x, y);
@@ -148,7 +152,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
         let mut from = 0;
         while let Some((left, top, tile, next)) = needs.next(level, from) {
             needs::in_tile(left, top, tile, |x, y| {
-                if level == 0 || demand.pyramid.known(demand.pyramid.index(level, x, y)).validity < FULL {
+                if level == 0 || demand.pyramid.standing(demand.pyramid.index(level, x, y)).validity() < FULL {
                     for (x, y) in above(x, y) {
                         needs.ask(level + 1, x, y);
                         demand.want_pulled(level + 1, x, y);
@@ -163,9 +167,9 @@ fn synthesise<S: Scene, const DENSE: bool>(
     let mut filled = 0;
     for level in (0..last).rev() {
         let size = levels.level(level);
-        let mut moments = Pyramid::new(size.width, size.height, scratch.moments)?;
+        let mut moments = Store::new(size.width, size.height, of_moments, scratch.moments)?;
         let mut tone_demand = Demand { pyramid: &mut tones, rule, base: Below(&*scene) };
-        let responses = Responses { tones: &mut tone_demand, level };
+        let responses = Responses { tones: &mut tone_demand, level, needs: &needs };
         let mut demand = Demand { pyramid: &mut moments, rule, base: responses };
         if DENSE {
             let top = demand.pyramid.levels().top();
@@ -173,17 +177,17 @@ fn synthesise<S: Scene, const DENSE: bool>(
         }
         needs.each(level, |x, y| {
             let tones = &demand.base.tones.pyramid;
-            if level == 0 || tones.known(tones.index(level, x, y)).validity < FULL {
+            if level == 0 || tones.standing(tones.index(level, x, y)).validity() < FULL {
                 for (x, y) in above(x, y) {
                     finish(&mut demand, x, y);
                 }
             }
         });
         needs.each(level, |x, y| {
-            let own = if level == 0 { scene.known(x, y) } else { tones.known(tones.index(level, x, y)) };
-            if own.validity == FULL {
+            if level > 0 && tones.standing(tones.index(level, x, y)).validity() == FULL {
                 return;
             }
+            let own = if level == 0 { scene.known(x, y) } else { tones.known(tones.index(level, x, y)) };
             let tone = sample(&tones, level, x, y, own.depth, rule, |tone| *tone);
             let tone = tone.map(|tone| {
                 let statistics = sample(&moments, 0, x, y, own.depth, rule, Moments::finished);
@@ -203,7 +207,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
                 }
             } else {
                 let index = tones.index(level, x, y);
-                tones.set(index, State::Completed, pushed(own, tone, tie(x, y, level)));
+                tones.set(index, State::Completed, &pushed(own, tone, tie(x, y, level)));
             }
         });
     }
@@ -223,7 +227,7 @@ fn finish<P: Scene>(demand: &mut Demand<'_, '_, Moments, Responses<'_, '_, '_, P
     }
     let Known { validity, depth, value } = demand.pyramid.known(index);
     let value = Moments::finish(value.statistics());
-    demand.pyramid.set(index, State::Completed, Known { validity, depth, value });
+    demand.pyramid.set(index, State::Completed, &Known { validity, depth, value });
 }
 
 /// What a level adds to the three channels: the sum of both bands, in quarters, to the nearest.

@@ -80,6 +80,19 @@ impl<'s> Needs<'s> {
         Some((column * SIDE, row * SIDE, *of_level.get(at)?, at + 1))
     }
 
+    /// The bits of 8 x 8 cells of a level, row by row from the lowest one; `left` and `top` are multiples of 8.
+    #[inline(always)]
+    #[must_use]
+    pub fn bits(&self, level: u32, left: u32, top: u32) -> u64 {
+        let size = self.levels.level(level);
+        if level > self.last || left >= size.width || top >= size.height {
+            return 0;
+        }
+        let tile = self.start(level) + (top / SIDE * columns(size.width) + left / SIDE) as usize;
+        let rows = self.tiles.get(tile).map_or(&[][..], |tile| tile.get((top % SIDE) as usize..).unwrap_or_default());
+        rows.iter().take(8).rev().fold(0, |bits, row| bits << 8 | u64::from(row >> (left % SIDE) & 0xff))
+    }
+
     /// Calls `each` for every cell of a level that is asked for, tile by tile.
     #[inline(always)]
     pub fn each(&self, level: u32, mut each: impl FnMut(u32, u32)) {

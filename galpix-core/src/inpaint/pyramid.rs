@@ -129,13 +129,6 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
         self.cells.get(index).map_or(Known { validity: 0, depth: 0, value: V::default() }, |cell| cell.known())
     }
 
-    /// Validity and depth of a cell, and its value; nothing of a place that there is not.
-    #[inline(always)]
-    pub(super) fn parts(&self, index: usize) -> Option<(u32, u32, &V)> {
-        let cell = self.cells.get(index)?;
-        Some((cell.meta >> DEPTH_BITS & ((1 << VALIDITY_BITS) - 1), cell.meta & ((1 << DEPTH_BITS) - 1), &cell.value))
-    }
-
     #[inline(always)]
     pub(super) fn set(&mut self, index: usize, state: State, known: Known<V>) {
         if let Some(cell) = self.cells.get_mut(index) {
