@@ -106,8 +106,12 @@ pub fn sample<V: Value, W: Value>(
         return None;
     }
     let [a, b, c, d] = above(x, y);
+    let level_above = pyramid.levels().level(level + 1);
     let at = |(x, y): (u32, u32)| {
-        let index = pyramid.index(level + 1, x, y);
+        if x >= level_above.width || y >= level_above.height {
+            return Known::default();
+        }
+        let index = (level_above.start + y * level_above.width + x) as usize;
         let Some(value) = pyramid.value(index) else { return Known::default() };
         let standing = pyramid.standing(index);
         Known { validity: standing.validity(), depth: standing.depth(), value: of(value) }

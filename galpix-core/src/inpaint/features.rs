@@ -6,7 +6,7 @@
 //!
 //! Responses themselves are not stored: a hole has none, and everything above sees their means only.
 
-use super::demand::{Base, Demand, pulled_alike};
+use super::demand::{Base, Demand, Even, pulled_alike};
 use super::mean::tie;
 use super::metamer::Scene;
 use super::needs::Needs;
@@ -26,47 +26,56 @@ const HALF: usize = TILE / 2;
 #[derive(Debug)]
 pub struct Below<'p, P>(pub &'p P);
 
-impl<P: Scene> Base<Tone> for Below<'_, P> {
-    const LEVELS: u32 = 1;
-
-    /// Pulls 8 x 1 cells.
-    fn pull(&mut self, pyramid: &mut Store<'_, Tone>, rule: &Rule, x: u32, y: u32) {
+impl<P: Scene> Below<'_, P> {
+    /// Eight cells of level 1, from `left` on.
+    #[inline(always)]
+    fn line(&self, left: u32, y: u32, rule: &Rule, cells: &mut [Known<Tone>]) {
         let [width, height] = self.0.size();
-        let (left, top) = (x / HALF as u32 * HALF as u32, y << 1);
+        let top = y << 1;
+        if top >= height {
+            return;
+        }
         let (mut upper, mut lower) = (Row::default(), Row::default());
         self.0.row(2 * left, top, &mut upper);
         if top + 1 < height {
             self.0.row(2 * left, top + 1, &mut lower);
         }
-        let mut means = [[0; HALF]; 3];
-        for ((means, upper), lower) in means.iter_mut().zip(&upper.channels).zip(&lower.channels) {
-            for (i, mean) in means.iter_mut().enumerate() {
-                let sum = upper[2 * i] + upper[2 * i + 1] + lower[2 * i] + lower[2 * i + 1];
-                *mean = (sum + 1 + tie(i as u32, y, 1) as i16) >> 2;
-            }
-        }
-        for (i, x) in (left..(left + HALF as u32).min(width.div_ceil(2))).enumerate() {
-            let column = 2 * i;
-            let depths =
-                [upper.depths[column], upper.depths[column + 1], lower.depths[column], lower.depths[column + 1]];
-            let [a, b, c, d] = depths;
+        for ((i, x), to) in (left..width.div_ceil(2)).enumerate().zip(cells) {
+            let (left, right) = (2 * i, 2 * i + 1);
+            let [a, b, c, d] = [upper.depths[left], upper.depths[right], lower.depths[left], lower.depths[right]];
             let depth = a.max(b).max(c.max(d)) as u32;
-            let known = upper.known[column] & upper.known[column + 1] & lower.known[column] & lower.known[column + 1];
+            let known = upper.known[left] & upper.known[right] & lower.known[left] & lower.known[right];
             let inside = 2 * x + 1 < width && top + 1 < height;
-            let even = inside && known != 0 && depth - a.min(b).min(c.min(d)) as u32 <= rule.threshold;
-            let known = if even {
-                let channels = [means[0][i], means[1][i], means[2][i]];
-                Known { validity: FULL, depth, value: Tone { channels, source: self.0.source(2 * x, top) } }
+            *to = if inside && known != 0 && depth - a.min(b).min(c.min(d)) as u32 <= rule.threshold {
+                let mut tone = Tone { channels: [0; 3], source: self.0.source(2 * x, top) };
+                for ((to, upper), lower) in tone.channels.iter_mut().zip(&upper.channels).zip(&lower.channels) {
+                    let sum = upper[left] + upper[right] + lower[left] + lower[right];
+                    *to = (sum + 1 + tie(x, y, 1) as i16) >> 2;
+                }
+                Known { validity: FULL, depth, value: tone }
             } else {
-                let child = |x: u32, y: u32| {
-                    if x < width && y < height { self.0.known(x, y) } else { Known::default() }
-                };
-                let (left, top) = (2 * x, top);
-                let children = [child(left, top), child(left + 1, top), child(left, top + 1), child(left + 1, top + 1)];
-                pulled(&children, rule, tie(x, y, 1))
+                let child =
+                    |x: u32, y: u32| if x < width && y < height { self.0.known(x, y) } else { Known::default() };
+                let (x0, x1) = (2 * x, 2 * x + 1);
+                pulled(&[child(x0, top), child(x1, top), child(x0, top + 1), child(x1, top + 1)], rule, tie(x, y, 1))
             };
-            pyramid.set(pyramid.index(1, x, y), State::Pulled, &known);
         }
+    }
+}
+
+impl<P: Scene> Base<Tone> for Below<'_, P> {
+    const LEVELS: u32 = 4;
+
+    /// Pulls 8 x 8 cells of level 1, up to one of level 4.
+    #[inline(never)]
+    fn pull(&mut self, pyramid: &mut Store<'_, Tone>, rule: &Rule, x: u32, y: u32) {
+        let (left, top) = (x >> 3 << 3, y >> 3 << 3);
+        let mut first: Part<Tone, 64> = [Known::default(); 64];
+        for (line, y) in first.chunks_exact_mut(8).zip(top..) {
+            self.line(left, y, rule, line);
+        }
+        keep(pyramid, 1, (left, top), 8, &first);
+        pull_up(pyramid, rule, (left, top), &first);
     }
 }
 
@@ -140,12 +149,12 @@ impl Quads {
 }
 
 /// Cells of a level of a pulled tile, or of its quarters.
-type Part<const CELLS: usize> = [Known<Moments>; CELLS];
+type Part<V, const CELLS: usize> = [Known<V>; CELLS];
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
     /// The cells of level 1 of the tile that begins at `left`, `top` of that level.
     #[inline(always)]
-    fn first(&mut self, left: u32, top: u32, rule: &Rule) -> Part<64> {
+    fn first(&mut self, left: u32, top: u32, rule: &Rule) -> Part<Moments, 64> {
         let size = self.tones.pyramid.levels().level(self.level);
         let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
             self.row(left, y, cells);
@@ -192,23 +201,27 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
 
 /// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
 #[inline(always)]
-fn keep(store: &mut Store<'_, Moments>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<Moments>]) {
+fn keep<V: Even>(store: &mut Store<'_, V>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<V>]) {
     for (row, y) in cells.chunks_exact(side).zip(top..) {
-        for (cell, x) in row.iter().zip(left..) {
-            store.set(store.index(level, x, y), State::Pulled, cell);
+        let first = store.index(level, left, y);
+        let width = store.levels().level(level).width;
+        if first != usize::MAX {
+            for ((cell, index), _) in row.iter().zip(first..).zip(left..width) {
+                store.set(index, State::Pulled, cell);
+            }
         }
     }
 }
 
 /// The level above a tile's, which has `2 side` x `2 side` cells.
 #[inline(always)]
-fn halved<const CELLS: usize>(
-    cells: &[Known<Moments>],
+fn halved<V: Even, const CELLS: usize>(
+    cells: &[Known<V>],
     side: usize,
     (left, top): (u32, u32),
     level: u32,
     rule: &Rule,
-) -> Part<CELLS> {
+) -> Part<V, CELLS> {
     let mut halved = [Known::default(); CELLS];
     for (at, to) in halved.iter_mut().enumerate() {
         let (i, j) = (at % side, at / side);
@@ -234,12 +247,18 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
                 pyramid.set(pyramid.index(1, x, y), State::Pulled, cell);
             }
         }
-        let place = |level: u32| (left >> (level - 1), top >> (level - 1));
-        let second: Part<16> = halved(&first, 4, place(2), 2, rule);
-        keep(pyramid, 2, place(2), 4, &second);
-        let third: Part<4> = halved(&second, 2, place(3), 3, rule);
-        keep(pyramid, 3, place(3), 2, &third);
-        let fourth: Part<1> = halved(&third, 1, place(4), 4, rule);
-        keep(pyramid, 4, place(4), 1, &fourth);
+        pull_up(pyramid, rule, (left, top), &first);
     }
+}
+
+/// Pulls levels 2 to 4 of the tile whose cells of level 1, from `left`, `top` on, these are.
+#[inline(always)]
+fn pull_up<V: Even>(store: &mut Store<'_, V>, rule: &Rule, (left, top): (u32, u32), first: &Part<V, 64>) {
+    let place = |level: u32| (left >> (level - 1), top >> (level - 1));
+    let second: Part<V, 16> = halved(first, 4, place(2), 2, rule);
+    keep(store, 2, place(2), 4, &second);
+    let third: Part<V, 4> = halved(&second, 2, place(3), 3, rule);
+    keep(store, 3, place(3), 2, &third);
+    let fourth: Part<V, 1> = halved(&third, 1, place(4), 4, rule);
+    keep(store, 4, place(4), 1, &fourth);
 }

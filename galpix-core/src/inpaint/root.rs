@@ -16,6 +16,28 @@ pub const fn nearest(value: u32) -> u32 {
     root + (rest > root) as u32
 }
 
+/// [`nearest`], for some numbers below 2^26 side by side.
+#[inline(always)]
+#[must_use]
+pub fn nearest_of<const COUNT: usize>(values: [u32; COUNT]) -> [u32; COUNT] {
+    // Signed numbers, which all vector registers can compare, and masks.
+    let (mut roots, mut rests) = ([0i32; COUNT], values.map(|value| value as i32));
+    let mut bit = 1 << 24;
+    while bit != 0 {
+        for (root, rest) in roots.iter_mut().zip(&mut rests) {
+            let trial = *root + bit;
+            let fits = -((*rest >= trial) as i32);
+            *rest -= trial & fits;
+            *root = (*root >> 1) + (bit & fits);
+        }
+        bit >>= 2;
+    }
+    for (root, rest) in roots.iter_mut().zip(rests) {
+        *root += (rest > *root) as i32;
+    }
+    roots.map(|root| root as u32)
+}
+
 /// Root and rest: `value = root^2 + rest`, `rest <= 2 root`.
 #[inline(always)]
 const fn split(value: u32) -> (u32, u32) {
@@ -45,6 +67,7 @@ mod tests {
             }
             assert_eq!(floor(value), root);
             assert_eq!(nearest(value), root + u32::from(value - root * root > root));
+            assert_eq!(nearest_of([value, value << 10]), [nearest(value), nearest(value << 10)]);
         }
     }
 

@@ -7,7 +7,7 @@
 use super::demand::Even;
 use super::mean::{divided, signed};
 use super::push_pull::Value;
-use super::root::nearest;
+use super::root::nearest_of;
 use super::steerable::{FRACTION_BITS, LARGEST_RESPONSE};
 
 /// Bands of a level: two for each of three channels.
@@ -49,9 +49,14 @@ impl Moments {
     #[inline(always)]
     #[must_use]
     pub fn statistics(&self) -> Statistics {
+        // Two more, so that all registers are full.
+        let mut variances = [0; BANDS + 2];
+        for ((to, &mean), &square) in variances.iter_mut().zip(&self.means).zip(&self.squares) {
+            *to = variance(mean, square);
+        }
         let mut deviations = [0; BANDS];
-        for ((deviation, &mean), &square) in deviations.iter_mut().zip(&self.means).zip(&self.squares) {
-            *deviation = nearest(variance(mean, square)) as i16;
+        for (deviation, root) in deviations.iter_mut().zip(nearest_of(variances)) {
+            *deviation = root as i16;
         }
         Statistics { means: self.means, deviations }
     }
