@@ -55,7 +55,7 @@ impl<V: Even, B: Base<V>> Demand<'_, '_, V, B> {
         let places = [at(a), at(b), at(c), at(d)];
         let [a, b, c, d] = places;
         let child = |at: usize| self.pyramid.known(at);
-        let known = pulled_alike(&[child(a), child(b), child(c), child(d)], self.rule, tie(x, y, level));
+        let known = pulled_alike([&child(a), &child(b), &child(c), &child(d)], self.rule, tie(x, y, level));
         let index = self.pyramid.index(level, x, y);
         self.pyramid.set(index, State::Pulled, &known);
     }
@@ -80,15 +80,14 @@ impl<V: Even, B: Base<V>> Demand<'_, '_, V, B> {
 
 /// [`pulled`], where most cells are known and of one surface.
 #[inline(always)]
-pub fn pulled_alike<V: Even>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Known<V> {
-    let [a, b, c, d] = children;
+pub fn pulled_alike<V: Even>([a, b, c, d]: [&Known<V>; 4], rule: &Rule, tie: u32) -> Known<V> {
     let nearest = a.depth.min(b.depth).min(c.depth.min(d.depth));
     let depth = a.depth.max(b.depth).max(c.depth.max(d.depth));
     if a.validity & b.validity & c.validity & d.validity == FULL && depth - nearest <= rule.threshold {
         let value = V::mean_of_known([&a.value, &b.value, &c.value, &d.value], tie);
         return Known { validity: FULL, depth, value };
     }
-    pulled(children, rule, tie)
+    pulled(&[*a, *b, *c, *d], rule, tie)
 }
 
 /// What a cell of any level gets from the completed level above, of which `of` is taken.

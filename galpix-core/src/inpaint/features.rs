@@ -66,16 +66,31 @@ impl<P: Scene> Below<'_, P> {
 impl<P: Scene> Base<Tone> for Below<'_, P> {
     const LEVELS: u32 = 4;
 
-    /// Pulls 8 x 8 cells of level 1, up to one of level 4.
+    /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture are long in
+    /// memory: that is why they are read far along before the next one is.
     #[inline(never)]
     fn pull(&mut self, pyramid: &mut Store<'_, Tone>, rule: &Rule, x: u32, y: u32) {
-        let (left, top) = (x >> 3 << 3, y >> 3 << 3);
-        let mut first: Part<Tone, 64> = [Known::default(); 64];
-        for (line, y) in first.chunks_exact_mut(8).zip(top..) {
-            self.line(left, y, rule, line);
+        const ACROSS: u32 = 8 * HALF as u32;
+        let (start, top) = (x / ACROSS * ACROSS, y >> 3 << 3);
+        let end = (start + ACROSS).min(pyramid.levels().level(1).width);
+        let tiles = || (start..end).step_by(HALF);
+        for y in top..top + HALF as u32 {
+            for left in tiles() {
+                let mut cells: Part<Tone, 8> = [Known::default(); 8];
+                self.line(left, y, rule, &mut cells);
+                keep(pyramid, 1, (left, y), 8, &cells);
+            }
         }
-        keep(pyramid, 1, (left, top), 8, &first);
-        pull_up(pyramid, rule, (left, top), &first);
+        for left in tiles() {
+            let mut first: Part<Tone, 64> = [Known::default(); 64];
+            for (line, y) in first.chunks_exact_mut(8).zip(top..) {
+                for (cell, x) in line.iter_mut().zip(left..) {
+                    *cell = pyramid.known(pyramid.index(1, x, y));
+                }
+            }
+            let second: Part<Tone, 16> = halved(&first, 4, (left >> 1, top >> 1), 2, rule);
+            pull_up(pyramid, rule, (left, top), &second);
+        }
     }
 }
 
@@ -152,9 +167,9 @@ impl Quads {
 type Part<V, const CELLS: usize> = [Known<V>; CELLS];
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
-    /// The cells of level 1 of the tile that begins at `left`, `top` of that level.
+    /// Pulls the tile that begins at `left`, `top` of level 1.
     #[inline(always)]
-    fn first(&mut self, left: u32, top: u32, rule: &Rule) -> Part<Moments, 64> {
+    fn tile(&mut self, pyramid: &mut Store<'_, Moments>, left: u32, top: u32, rule: &Rule) {
         let size = self.tones.pyramid.levels().level(self.level);
         let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
             self.row(left, y, cells);
@@ -165,6 +180,11 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
             bands(cells, of_channel);
         }
         let quads = Quads::new(&of_channels, tie(left, top, 1));
+        let asked = self.needs.bits(self.level + 1, left, top);
+        let half = HALF as u32;
+        if whole.is_none() && 2 * (left + half) <= size.width && 2 * (top + half) <= size.height {
+            return even_tile(pyramid, (left, top), &quads, &surroundings, asked, rule);
+        }
         let mut cells = [Known::default(); 64];
         for (at, cell) in cells.iter_mut().enumerate() {
             let (i, j) = (at % HALF, at / HALF);
@@ -194,9 +214,53 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
             } else {
                 Known::default()
             };
+            if asked >> at & 1 != 0 {
+                pyramid.set(pyramid.index(1, x, y), State::Pulled, cell);
+            }
         }
-        cells
+        let second: Part<Moments, 16> = halved(&cells, 4, (left >> 1, top >> 1), 2, rule);
+        pull_up(pyramid, rule, (left, top), &second);
     }
+}
+
+/// Pulls a tile that is known throughout, of one surface, and within the picture: of level 1 only what is asked for is put together.
+#[inline(always)]
+fn even_tile(
+    pyramid: &mut Store<'_, Moments>,
+    (left, top): (u32, u32),
+    quads: &Quads,
+    surroundings: &Surroundings,
+    mut asked: u64,
+    rule: &Rule,
+) {
+    let depth = |x: usize, y: usize| {
+        let (column, row) = (2 * x + APRON, 2 * y + APRON);
+        let [upper, lower] = [&surroundings.depths[row], &surroundings.depths[row + 1]];
+        upper[column].max(upper[column + 1]).max(lower[column].max(lower[column + 1])) as u32
+    };
+    while asked != 0 {
+        let at = asked.trailing_zeros() as usize;
+        asked &= asked - 1;
+        let (i, j) = (at % HALF, at / HALF);
+        let known = Known { validity: FULL, depth: depth(i, j), value: quads.moments(i, j) };
+        pyramid.set(pyramid.index(1, left + i as u32, top + j as u32), State::Pulled, &known);
+    }
+    let mut second: Part<Moments, 16> = [Known::default(); 16];
+    for (at, to) in second.iter_mut().enumerate() {
+        let (i, j) = (at % 4, at / 4);
+        let up = 1 + tie((left >> 1) + i as u32, (top >> 1) + j as u32, 2);
+        let (x, y) = (2 * i, 2 * j);
+        for band in 0..BANDS {
+            let (means, squares) = (&quads.means[band], &quads.squares[band]);
+            let sum = means[y][x] + means[y][x + 1] + means[y + 1][x] + means[y + 1][x + 1];
+            to.value.means[band] = (sum + up as i16) >> 2;
+            let sum = squares[y][x] + squares[y][x + 1] + squares[y + 1][x] + squares[y + 1][x + 1];
+            to.value.squares[band] = (sum + up) >> 2;
+        }
+        to.validity = FULL;
+        to.depth = depth(x, y).max(depth(x + 1, y)).max(depth(x, y + 1).max(depth(x + 1, y + 1)));
+    }
+    pull_up(pyramid, rule, (left, top), &second);
 }
 
 /// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
@@ -225,9 +289,13 @@ fn halved<V: Even, const CELLS: usize>(
     let mut halved = [Known::default(); CELLS];
     for (at, to) in halved.iter_mut().enumerate() {
         let (i, j) = (at % side, at / side);
-        let child = |dx: usize, dy: usize| cells.get((2 * j + dy) * 2 * side + 2 * i + dx).copied().unwrap_or_default();
-        let children = [child(0, 0), child(1, 0), child(0, 1), child(1, 1)];
-        *to = pulled_alike(&children, rule, tie(left + i as u32, top + j as u32, level));
+        let first = 2 * (2 * j * side + i);
+        let (Some([a, b]), Some([c, d])) =
+            (cells.get(first..first + 2), cells.get(first + 2 * side..first + 2 * side + 2))
+        else {
+            continue;
+        };
+        *to = pulled_alike([a, b, c, d], rule, tie(left + i as u32, top + j as u32, level));
     }
     halved
 }
@@ -239,25 +307,16 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
     #[inline(never)]
     fn pull(&mut self, pyramid: &mut Store<'_, Moments>, rule: &Rule, x: u32, y: u32) {
         let (left, top) = (x >> 3 << 3, y >> 3 << 3);
-        let first = self.first(left, top, rule);
-        let asked = self.needs.bits(self.level + 1, left, top);
-        for (at, cell) in first.iter().enumerate() {
-            if asked >> at & 1 != 0 {
-                let (x, y) = (left + at as u32 % 8, top + at as u32 / 8);
-                pyramid.set(pyramid.index(1, x, y), State::Pulled, cell);
-            }
-        }
-        pull_up(pyramid, rule, (left, top), &first);
+        self.tile(pyramid, left, top, rule);
     }
 }
 
-/// Pulls levels 2 to 4 of the tile whose cells of level 1, from `left`, `top` on, these are.
+/// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of level 1.
 #[inline(always)]
-fn pull_up<V: Even>(store: &mut Store<'_, V>, rule: &Rule, (left, top): (u32, u32), first: &Part<V, 64>) {
+fn pull_up<V: Even>(store: &mut Store<'_, V>, rule: &Rule, (left, top): (u32, u32), second: &Part<V, 16>) {
     let place = |level: u32| (left >> (level - 1), top >> (level - 1));
-    let second: Part<V, 16> = halved(first, 4, place(2), 2, rule);
-    keep(store, 2, place(2), 4, &second);
-    let third: Part<V, 4> = halved(&second, 2, place(3), 3, rule);
+    keep(store, 2, place(2), 4, second);
+    let third: Part<V, 4> = halved(second, 2, place(3), 3, rule);
     keep(store, 3, place(3), 2, &third);
     let fourth: Part<V, 1> = halved(&third, 1, place(4), 4, rule);
     keep(store, 4, place(4), 1, &fourth);

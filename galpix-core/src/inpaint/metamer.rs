@@ -50,6 +50,12 @@ pub trait Scene: Picture<Value = Tone> {
         }
     }
 
+    /// The depth of a cell.
+    #[inline]
+    fn depth(&self, x: u32, y: u32) -> u32 {
+        self.known(x, y).depth
+    }
+
     /// The source of a cell's tone.
     #[inline]
     fn source(&self, x: u32, y: u32) -> u32 {
@@ -187,7 +193,12 @@ fn synthesise<S: Scene, const DENSE: bool>(
             if level > 0 && tones.standing(tones.index(level, x, y)).validity() == FULL {
                 return;
             }
-            let own = if level == 0 { scene.known(x, y) } else { tones.known(tones.index(level, x, y)) };
+            let own = if level == 0 {
+                let depth = scene.depth(x, y);
+                Known { validity: 0, depth, value: Tone::default() }
+            } else {
+                tones.known(tones.index(level, x, y))
+            };
             let tone = sample(&tones, level, x, y, own.depth, rule, |tone| *tone);
             let tone = tone.map(|tone| {
                 let statistics = sample(&moments, 0, x, y, own.depth, rule, Moments::finished);

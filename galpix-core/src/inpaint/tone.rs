@@ -155,6 +155,13 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
     }
 
     #[inline]
+    fn depth(&self, x: u32, y: u32) -> u32 {
+        let bits = u32::from(self.map.record().depth().bits);
+        let key = self.map.grid().cell(x as i32, y as i32).and_then(|cell| self.map.key_at(cell));
+        key.map_or(0, |key| pyramid_depth(key & ((1 << bits) - 1), bits))
+    }
+
+    #[inline]
     fn source(&self, x: u32, y: u32) -> u32 {
         self.map.grid().cell(x as i32, y as i32).unwrap_or_default()
     }
