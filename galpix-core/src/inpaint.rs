@@ -27,7 +27,6 @@ pub mod quads;
 pub mod root;
 pub mod statistics;
 pub mod steerable;
-pub mod store;
 pub mod tile;
 pub mod tone;
 pub mod validity;

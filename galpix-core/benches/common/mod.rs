@@ -1,7 +1,11 @@
 //! What the benches share: a scene, maps to lay it into, and the obvious way in floats.
 
+#![allow(dead_code, reason = "each bench uses its part of it")]
+pub mod holes;
 pub mod naive;
+pub mod race;
 pub mod scene;
+pub mod textbook;
 
 use std::hint::black_box;
 

@@ -6,15 +6,14 @@
 //!
 //! Responses themselves are not stored: a hole has none, and everything above sees their means only.
 
-use super::demand::{Base, Demand, Even, pulled_alike};
+use super::demand::{Base, Demand};
 use super::mean::tie;
 use super::metamer::Scene;
 use super::needs::Needs;
-use super::push_pull::{Rule, pulled};
-use super::pyramid::{Known, State};
+use super::push_pull::{Rule, Value, pulled};
+use super::pyramid::{Known, Pyramid, State};
 use super::statistics::{BANDS, Moments};
 use super::steerable::{APRON, Bands, TILE, bands};
-use super::store::Store;
 use super::tile::{Row, Surroundings};
 use super::tone::Tone;
 use super::validity::FULL;
@@ -69,7 +68,7 @@ impl<P: Scene> Base<Tone> for Below<'_, P> {
     /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture are long in
     /// memory: that is why they are read far along before the next one is.
     #[inline(never)]
-    fn pull(&mut self, pyramid: &mut Store<'_, Tone>, rule: &Rule, x: u32, y: u32) {
+    fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, rule: &Rule, x: u32, y: u32) {
         const ACROSS: u32 = 8 * HALF as u32;
         let (start, top) = (x / ACROSS * ACROSS, y >> 3 << 3);
         let end = (start + ACROSS).min(pyramid.levels().level(1).width);
@@ -169,7 +168,7 @@ type Part<V, const CELLS: usize> = [Known<V>; CELLS];
 impl<P: Scene> Responses<'_, '_, '_, P> {
     /// Pulls the tile that begins at `left`, `top` of level 1.
     #[inline(always)]
-    fn tile(&mut self, pyramid: &mut Store<'_, Moments>, left: u32, top: u32, rule: &Rule) {
+    fn tile(&mut self, pyramid: &mut Pyramid<'_, Moments>, left: u32, top: u32, rule: &Rule) {
         let size = self.tones.pyramid.levels().level(self.level);
         let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
             self.row(left, y, cells);
@@ -215,7 +214,7 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
                 Known::default()
             };
             if asked >> at & 1 != 0 {
-                pyramid.set(pyramid.index(1, x, y), State::Pulled, cell);
+                pyramid.set(pyramid.index(1, x, y), State::Pulled, *cell);
             }
         }
         let second: Part<Moments, 16> = halved(&cells, 4, (left >> 1, top >> 1), 2, rule);
@@ -226,7 +225,7 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
 /// Pulls a tile that is known throughout, of one surface, and within the picture: of level 1 only what is asked for is put together.
 #[inline(always)]
 fn even_tile(
-    pyramid: &mut Store<'_, Moments>,
+    pyramid: &mut Pyramid<'_, Moments>,
     (left, top): (u32, u32),
     quads: &Quads,
     surroundings: &Surroundings,
@@ -243,7 +242,7 @@ fn even_tile(
         asked &= asked - 1;
         let (i, j) = (at % HALF, at / HALF);
         let known = Known { validity: FULL, depth: depth(i, j), value: quads.moments(i, j) };
-        pyramid.set(pyramid.index(1, left + i as u32, top + j as u32), State::Pulled, &known);
+        pyramid.set(pyramid.index(1, left + i as u32, top + j as u32), State::Pulled, known);
     }
     let mut second: Part<Moments, 16> = [Known::default(); 16];
     for (at, to) in second.iter_mut().enumerate() {
@@ -265,13 +264,13 @@ fn even_tile(
 
 /// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
 #[inline(always)]
-fn keep<V: Even>(store: &mut Store<'_, V>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<V>]) {
+fn keep<V: Value>(store: &mut Pyramid<'_, V>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<V>]) {
     for (row, y) in cells.chunks_exact(side).zip(top..) {
         let first = store.index(level, left, y);
         let width = store.levels().level(level).width;
         if first != usize::MAX {
             for ((cell, index), _) in row.iter().zip(first..).zip(left..width) {
-                store.set(index, State::Pulled, cell);
+                store.set(index, State::Pulled, *cell);
             }
         }
     }
@@ -279,7 +278,7 @@ fn keep<V: Even>(store: &mut Store<'_, V>, level: u32, (left, top): (u32, u32), 
 
 /// The level above a tile's, which has `2 side` x `2 side` cells.
 #[inline(always)]
-fn halved<V: Even, const CELLS: usize>(
+fn halved<V: Value, const CELLS: usize>(
     cells: &[Known<V>],
     side: usize,
     (left, top): (u32, u32),
@@ -295,7 +294,7 @@ fn halved<V: Even, const CELLS: usize>(
         else {
             continue;
         };
-        *to = pulled_alike([a, b, c, d], rule, tie(left + i as u32, top + j as u32, level));
+        *to = pulled(&[*a, *b, *c, *d], rule, tie(left + i as u32, top + j as u32, level));
     }
     halved
 }
@@ -305,7 +304,7 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
 
     /// Pulls the tile that a cell lies in: 8 x 8 cells of level 1, up to one of level 4.
     #[inline(never)]
-    fn pull(&mut self, pyramid: &mut Store<'_, Moments>, rule: &Rule, x: u32, y: u32) {
+    fn pull(&mut self, pyramid: &mut Pyramid<'_, Moments>, rule: &Rule, x: u32, y: u32) {
         let (left, top) = (x >> 3 << 3, y >> 3 << 3);
         self.tile(pyramid, left, top, rule);
     }
@@ -313,7 +312,7 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
 
 /// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of level 1.
 #[inline(always)]
-fn pull_up<V: Even>(store: &mut Store<'_, V>, rule: &Rule, (left, top): (u32, u32), second: &Part<V, 16>) {
+fn pull_up<V: Value>(store: &mut Pyramid<'_, V>, rule: &Rule, (left, top): (u32, u32), second: &Part<V, 16>) {
     let place = |level: u32| (left >> (level - 1), top >> (level - 1));
     keep(store, 2, place(2), 4, second);
     let third: Part<V, 4> = halved(second, 2, place(3), 3, rule);

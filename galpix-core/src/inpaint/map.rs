@@ -2,8 +2,9 @@
 
 use core::marker::PhantomData;
 
+use super::mean::tie;
 use super::paint::{Moving, Tint};
-use super::push_pull::{Picture, Value};
+use super::push_pull::{Picture, RUN, Value};
 use super::pyramid::{DEPTH_BITS, Known};
 use super::validity::FULL;
 use crate::galpixel::{Budget, Class};
@@ -12,7 +13,7 @@ use crate::layout::Layout;
 use crate::record::Words;
 
 /// Cells that are looked at once.
-pub(super) const RUN: u32 = 32;
+pub(super) const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel<L: Layout>: Value {
@@ -108,13 +109,54 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         }
     }
 
+    #[inline(always)]
+    fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, V); RUN]> {
+        const CELLS: usize = 2 * RUN;
+        let grid = self.map.grid();
+        let (left, top) = (x << 1, y << 1);
+        if left + CELLS as u32 > grid.width() {
+            return None;
+        }
+        let (upper, lower) = (grid.cell(left as i32, top as i32)?, grid.cell(left as i32, top as i32 + 1)?);
+        let bits = u32::from(self.map.record().depth().bits);
+        let keys = |cell: u32| {
+            let mut keys = [u32::MAX; CELLS];
+            let cell = cell as usize;
+            for (to, key) in keys.iter_mut().zip(self.map.keys(cell..cell + CELLS)) {
+                *to = key;
+            }
+            keys
+        };
+        let (upper_keys, lower_keys) = (keys(upper), keys(lower));
+        let mut run = [(0, V::default()); RUN];
+        let (mut all, mut uneven) = (0, 0);
+        for (i, (depth, _)) in run.iter_mut().enumerate() {
+            let [a, b, c, d] = [upper_keys[2 * i], upper_keys[2 * i + 1], lower_keys[2 * i], lower_keys[2 * i + 1]];
+            all |= a | b | c | d;
+            let [a, b, c, d] = [a, b, c, d].map(|depth| pyramid_depth(depth, bits) as i32);
+            let (farthest, nearest) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
+            uneven |= u32::from((farthest - nearest) as u32 > threshold);
+            *depth = farthest as u32;
+        }
+        // Galpixels are of class 0, which stands above the depth.
+        if all >> bits != 0 || uneven != 0 {
+            return None;
+        }
+        for (i, (_, value)) in (0..).zip(run.iter_mut()) {
+            let four =
+                [upper + 2 * i, upper + 2 * i + 1, lower + 2 * i, lower + 2 * i + 1].map(|cell| V::of(self.map, cell));
+            *value = V::plain_mean(&four, tie(x + i, y, 1));
+        }
+        Some(run)
+    }
+
     fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<V>) -> u32 {
         let grid = *self.map.grid();
         let mut filled = 0;
         for (y, &row) in (0..).zip(grid.starts()) {
             let mut x = 0;
             while x < grid.width() {
-                let run = (grid.width() - x).min(RUN);
+                let run = (grid.width() - x).min(LOOK);
                 if self.map.any_just_unobscured(row + x, run) {
                     for x in x..x + run {
                         let cell = row + x;

@@ -23,10 +23,9 @@ use super::mean::tie;
 use super::needs::{self, Needs};
 use super::noise::{self, Scale};
 use super::push_pull::{Picture, Rule, above, pushed};
-use super::pyramid::{Known, State};
+use super::pyramid::{Cell, Known, Pyramid, State, state_words};
 use super::statistics::{BANDS, Moments, Statistics};
 use super::steerable::{self, COLUMNS};
-use super::store::{Standing, Store};
 use super::tile::Row;
 use super::tone::Tone;
 use super::validity::{FULL, Gamma};
@@ -97,11 +96,11 @@ impl Recipe {
 #[derive(Debug)]
 pub struct Scratch<'s> {
     /// [`cells`] of them.
-    pub tones: &'s mut [Tone],
+    pub tones: &'s mut [Cell<Tone>],
     /// As many.
-    pub moments: &'s mut [Moments],
-    /// As many of each.
-    pub standings: [&'s mut [Standing]; 2],
+    pub moments: &'s mut [Cell<Moments>],
+    /// [`state_words`] of these for each of them.
+    pub states: [&'s mut [u32]; 2],
     /// [`needs::tiles`] of them, up to the level of the recipe.
     pub needs: &'s mut [needs::Tile],
     /// The noise that was last made.
@@ -111,7 +110,9 @@ pub struct Scratch<'s> {
 /// Bytes of scratch memory for a picture of `width` x `height` cells and up to `levels` levels.
 #[must_use]
 pub const fn bytes(width: u32, height: u32, levels: u32) -> usize {
-    cells(width, height) * (size_of::<Tone>() + size_of::<Moments>() + 2 * size_of::<Standing>())
+    let cells = cells(width, height);
+    cells * (size_of::<Cell<Tone>>() + size_of::<Cell<Moments>>())
+        + 2 * state_words(cells) * size_of::<u32>()
         + needs::tiles(width, height, levels) * size_of::<needs::Tile>()
         + size_of::<noise::Tiles>()
 }
@@ -138,8 +139,8 @@ fn synthesise<S: Scene, const DENSE: bool>(
     let levels = Levels::new(width, height);
     let last = recipe.levels.clamp(1, MOST_LEVELS).min(levels.top());
     let mut needs = Needs::new(levels, last, scratch.needs)?;
-    let [of_tones, of_moments] = &mut scratch.standings;
-    let mut tones = Store::new(width, height, of_tones, scratch.tones)?;
+    let [of_tones, of_moments] = &mut scratch.states;
+    let mut tones = Pyramid::new(width, height, scratch.tones, of_tones)?;
     let mut holes = 0u32;
     scene.holes(|x, y| {
         needs.ask(0, x, y);
@@ -158,7 +159,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
         let mut from = 0;
         while let Some((left, top, tile, next)) = needs.next(level, from) {
             needs::in_tile(left, top, tile, |x, y| {
-                if level == 0 || demand.pyramid.standing(demand.pyramid.index(level, x, y)).validity() < FULL {
+                if level == 0 || demand.pyramid.validity(demand.pyramid.index(level, x, y)) < FULL {
                     for (x, y) in above(x, y) {
                         needs.ask(level + 1, x, y);
                         demand.want_pulled(level + 1, x, y);
@@ -173,7 +174,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
     let mut filled = 0;
     for level in (0..last).rev() {
         let size = levels.level(level);
-        let mut moments = Store::new(size.width, size.height, of_moments, scratch.moments)?;
+        let mut moments = Pyramid::new(size.width, size.height, scratch.moments, of_moments)?;
         let mut tone_demand = Demand { pyramid: &mut tones, rule, base: Below(&*scene) };
         let responses = Responses { tones: &mut tone_demand, level, needs: &needs };
         let mut demand = Demand { pyramid: &mut moments, rule, base: responses };
@@ -183,14 +184,14 @@ fn synthesise<S: Scene, const DENSE: bool>(
         }
         needs.each(level, |x, y| {
             let tones = &demand.base.tones.pyramid;
-            if level == 0 || tones.standing(tones.index(level, x, y)).validity() < FULL {
+            if level == 0 || tones.validity(tones.index(level, x, y)) < FULL {
                 for (x, y) in above(x, y) {
                     finish(&mut demand, x, y);
                 }
             }
         });
         needs.each(level, |x, y| {
-            if level > 0 && tones.standing(tones.index(level, x, y)).validity() == FULL {
+            if level > 0 && tones.validity(tones.index(level, x, y)) == FULL {
                 return;
             }
             let own = if level == 0 {
@@ -218,7 +219,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
                 }
             } else {
                 let index = tones.index(level, x, y);
-                tones.set(index, State::Completed, &pushed(own, tone, tie(x, y, level)));
+                tones.set(index, State::Completed, pushed(own, tone, tie(x, y, level)));
             }
         });
     }
@@ -238,7 +239,7 @@ fn finish<P: Scene>(demand: &mut Demand<'_, '_, Moments, Responses<'_, '_, '_, P
     }
     let Known { validity, depth, value } = demand.pyramid.known(index);
     let value = Moments::finish(value.statistics());
-    demand.pyramid.set(index, State::Completed, &Known { validity, depth, value });
+    demand.pyramid.set(index, State::Completed, Known { validity, depth, value });
 }
 
 /// What a level adds to the three channels: the sum of both bands, in quarters, to the nearest.

@@ -54,19 +54,45 @@ impl Tint {
     }
 }
 
+/// The first and the third channel, which have room for sums between them.
+const OUTER: u32 = 0x3ff0_03ff;
+
+/// A one in each of these two.
+const OUTER_ONES: u32 = 0x0010_0001;
+
+/// The second channel, moved down.
+const MIDDLE: u32 = 0x3ff;
+
 impl Value for Tint {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
-        // Two channels to a word: the sums of neither reach the other.
         let (mut outer, mut middle) = (0u64, 0);
-        let mask = (1u64 << CHANNEL_BITS) - 1;
         for (value, &weight) in values.iter().zip(weights) {
-            let tint = u64::from(value.0);
-            outer += u64::from(weight) * (tint >> (2 * CHANNEL_BITS) << 32 | tint & mask);
-            middle += weight * (value.0 >> CHANNEL_BITS & mask as u32);
+            outer += u64::from(value.0 & OUTER) * u64::from(weight);
+            middle += (value.0 >> CHANNEL_BITS & MIDDLE) * weight;
         }
         let weight = weights.iter().sum();
-        Self::new(divided3([(outer >> 32) as u32, middle, outer as u32], weight, tie))
+        let sums = [(outer >> (2 * CHANNEL_BITS)) as u32, middle, outer as u32 & ((1 << (2 * CHANNEL_BITS)) - 1)];
+        Self::new(divided3(sums, weight, tie))
+    }
+
+    #[inline(always)]
+    fn plain_mean(values: &[Self; 4], tie: u32) -> Self {
+        // Four channels of ten bits fit into twelve. A half that goes up is two quarters more.
+        let bias = 1 + tie;
+        let outer = values.iter().fold(OUTER_ONES * bias, |sum, value| sum + (value.0 & OUTER));
+        let middle = values.iter().fold(bias, |sum, value| sum + (value.0 >> CHANNEL_BITS & MIDDLE));
+        Self(outer >> 2 & OUTER | (middle >> 2) << CHANNEL_BITS)
+    }
+
+    #[inline(always)]
+    fn linear(values: &[Self; 4], tie: u32) -> Self {
+        let bias = 7 + tie;
+        let [own, beside, above, across] = values.map(|value| u64::from(value.0 & OUTER));
+        let outer = u64::from(OUTER_ONES * bias) + 9 * own + 3 * (beside + above) + across;
+        let [own, beside, above, across] = values.map(|value| value.0 >> CHANNEL_BITS & MIDDLE);
+        let middle = bias + 9 * own + 3 * (beside + above) + across;
+        Self((outer >> 4) as u32 & OUTER | (middle >> 4) << CHANNEL_BITS)
     }
 }
 
@@ -93,6 +119,16 @@ impl Value for Moving {
         }
         Self { tint: Tint::mean(&values.map(|value| value.tint), weights, tie), source }
     }
+
+    #[inline(always)]
+    fn plain_mean(values: &[Self; 4], tie: u32) -> Self {
+        Self { tint: Tint::plain_mean(&values.map(|value| value.tint), tie), ..values[0] }
+    }
+
+    #[inline(always)]
+    fn linear(values: &[Self; 4], tie: u32) -> Self {
+        Self { tint: Tint::linear(&values.map(|value| value.tint), tie), ..values[0] }
+    }
 }
 
 #[cfg(test)]
@@ -112,6 +148,22 @@ mod tests {
         comes_back::<Rgb565>(0..1 << 16);
         comes_back::<Gray8>(0..256);
         comes_back::<Gray4>(0..16);
+    }
+
+    #[test]
+    fn means_by_usual_weights_are_means() {
+        let mut bits = 1u32;
+        let mut next = || {
+            bits = bits.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            Moving { tint: Tint(bits >> 2), source: bits }
+        };
+        for round in 0..10_000 {
+            let values = [next(), next(), next(), next()];
+            for tie in 0..2 {
+                assert_eq!(Moving::plain_mean(&values, tie), Moving::mean(&values, &[16; 4], tie), "{round}");
+                assert_eq!(Moving::linear(&values, tie), Moving::mean(&values, &[9, 3, 3, 1], tie), "{round}");
+            }
+        }
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use core::marker::PhantomData;
 
+use super::mean::tie;
 use super::paint::Tint;
-use super::push_pull::Picture;
+use super::push_pull::{Picture, RUN, Value, below};
 use super::pyramid::Known;
 use super::validity::FULL;
 use crate::colour::Colour;
@@ -72,6 +73,69 @@ impl<C: Colour> Picture for Masked<'_, C> {
             depth: self.depths.get(cell as usize).copied().unwrap_or_default(),
             value: Tint::of::<C>(self.colours.get(cell as usize).copied().unwrap_or_default()),
         }
+    }
+
+    #[inline(always)]
+    fn block(&self, x: u32, y: u32) -> [Known<Tint>; 4] {
+        let (left, top) = (x << 1, y << 1);
+        if left + 1 >= self.width || top + 1 >= self.height {
+            return below(x, y)
+                .map(|(x, y)| if x < self.width && y < self.height { self.known(x, y) } else { Known::default() });
+        }
+        let two = |cell: u32| {
+            let pair =
+                |cells: &[u32]| cells.get(cell as usize..).and_then(<[u32]>::first_chunk).copied().unwrap_or([0; 2]);
+            let (colours, depths) = (pair(self.colours), pair(self.depths));
+            let bits = [self.bits(cell), self.bits(cell + 1)];
+            [0, 1].map(|i: usize| Known {
+                validity: (bits[i] & 1) * FULL,
+                depth: depths[i],
+                value: Tint::of::<C>(colours[i]),
+            })
+        };
+        let cell = top * self.width + left;
+        let ([a, b], [c, d]) = (two(cell), two(cell + self.width));
+        [a, b, c, d]
+    }
+
+    #[inline(always)]
+    fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, Tint); RUN]> {
+        const CELLS: usize = 2 * RUN;
+        let (left, top) = (x << 1, y << 1);
+        if left + CELLS as u32 > self.width || top + 1 >= self.height {
+            return None;
+        }
+        let cell = top * self.width + left;
+        let known = |cell: u32| {
+            let next = self.known.get((cell / WORD + 1) as usize).map_or(0, |&word| u64::from(word));
+            (u64::from(self.bits(cell)) | next << (WORD - cell % WORD)) as u32 & ((1 << CELLS) - 1) == (1 << CELLS) - 1
+        };
+        if !known(cell) || !known(cell + self.width) {
+            return None;
+        }
+        let cells =
+            |plane: &'_ [u32], cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<CELLS>).copied();
+        let mut run = [(0, Tint::default()); RUN];
+        if !self.depths.is_empty() {
+            let (upper, lower) = (cells(self.depths, cell)?, cells(self.depths, cell + self.width)?);
+            let mut uneven = 0;
+            for (i, (depth, _)) in run.iter_mut().enumerate() {
+                let [a, b, c, d] =
+                    [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]].map(|depth| depth as i32);
+                let (farthest, nearest) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
+                uneven |= u32::from((farthest - nearest) as u32 > threshold);
+                *depth = farthest as u32;
+            }
+            if uneven != 0 {
+                return None;
+            }
+        }
+        let (upper, lower) = (cells(self.colours, cell)?, cells(self.colours, cell + self.width)?);
+        for (i, (_, value)) in run.iter_mut().enumerate() {
+            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]].map(Tint::of::<C>);
+            *value = Tint::plain_mean(&four, tie(x + i as u32, y, 1));
+        }
+        Some(run)
     }
 
     fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<Tint>) -> u32 {

@@ -27,7 +27,25 @@ use super::validity::{FULL, Gamma};
 pub trait Value: Copy + Default {
     /// The mean by weights whose sum is 1 to 64; a half goes up if `tie` is 1.
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self;
+
+    /// [`Self::mean`] by equal weights.
+    #[inline(always)]
+    fn plain_mean(values: &[Self; 4], tie: u32) -> Self {
+        Self::mean(values, &[FULL; 4], tie)
+    }
+
+    /// [`Self::mean`] by the weights [`LINEAR`].
+    #[inline(always)]
+    fn linear(values: &[Self; 4], tie: u32) -> Self {
+        Self::mean(values, &LINEAR, tie)
+    }
 }
+
+/// Sixteenths by which a cell takes of the four coarse cells around it: its own, that beside, that above or below, that across.
+pub const LINEAR: [u32; 4] = [9, 3, 3, 1];
+
+/// Blocks that [`Picture::even_run`] looks at.
+pub const RUN: usize = 8;
 
 /// A picture with holes.
 pub trait Picture {
@@ -39,6 +57,21 @@ pub trait Picture {
 
     /// What is known of a cell of the picture: validity [`FULL`] or 0. A cell beyond its border is never asked for.
     fn known(&self, x: u32, y: u32) -> Known<Self::Value>;
+
+    /// What is known of the four cells below a cell of level 1; nothing of those beyond the border.
+    #[inline(always)]
+    fn block(&self, x: u32, y: u32) -> [Known<Self::Value>; 4] {
+        let [width, height] = self.size();
+        below(x, y).map(|(x, y)| if x < width && y < height { self.known(x, y) } else { Known::default() })
+    }
+
+    /// The plain means of [`RUN`] blocks side by side, from that below cell `x` of row `y` of level 1 on, if all of their
+    /// cells are known and no surface ends among them: depth, value, and nothing where that is not so.
+    #[inline(always)]
+    fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, Self::Value); RUN]> {
+        let _ = (x, y, threshold);
+        None
+    }
 
     /// Asks `value` for each hole that is to be filled, row by row, and puts there what it answers; how many got something. What
     /// [`Self::known`] says of any cell does not change by that.
@@ -61,6 +94,10 @@ pub struct Rule {
 #[must_use]
 pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Known<V> {
     let depth = children.iter().fold(0, |farthest, child| farthest.max(child.depth));
+    let nearest = children.iter().fold(u32::MAX, |nearest, child| nearest.min(child.depth));
+    if children.iter().all(|child| child.validity == FULL) && depth - nearest <= rule.threshold {
+        return Known { validity: FULL, depth, value: V::plain_mean(&children.map(|child| child.value), tie) };
+    }
     let weights = children.map(|child| if depth - child.depth > rule.threshold { 0 } else { child.validity });
     let sum = weights.iter().sum();
     let value = if sum == 0 { V::default() } else { V::mean(&children.map(|child| child.value), &weights, tie) };
@@ -72,13 +109,16 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Know
 #[inline(always)]
 #[must_use]
 pub fn sampled<V: Value>(coarse: &[Known<V>; 4], depth: u32, rule: &Rule, tie: u32) -> Option<V> {
-    let mut weights = [9, 3, 3, 1];
-    for (weight, cell) in weights.iter_mut().zip(coarse) {
-        if cell.validity == 0 || depth.saturating_sub(cell.depth) > rule.threshold {
-            *weight = 0;
-        }
+    let of_use = coarse.map(|cell| cell.validity != 0 && depth.saturating_sub(cell.depth) <= rule.threshold);
+    let values = coarse.map(|cell| cell.value);
+    if of_use == [true; 4] {
+        return Some(V::linear(&values, tie));
     }
-    if weights == [0; 4] { None } else { Some(V::mean(&coarse.map(|cell| cell.value), &weights, tie)) }
+    let mut weights = LINEAR;
+    for (weight, of_use) in weights.iter_mut().zip(of_use) {
+        *weight *= u32::from(of_use);
+    }
+    if weights == [0; 4] { None } else { Some(V::mean(&values, &weights, tie)) }
 }
 
 /// PUSH of Algorithm 1: a cell takes its own value by its validity, and the rest from the coarser level.
@@ -97,14 +137,24 @@ pub fn pushed<V: Value>(own: Known<V>, from_above: Option<V>, tie: u32) -> Known
     Known { validity, value, ..own }
 }
 
-/// The four cells of the level above that a cell is sampled from, as [`sampled`] takes them.
+/// The four cells that a coarse cell is pulled from.
+#[inline(always)]
+pub(super) const fn below(x: u32, y: u32) -> [(u32, u32); 4] {
+    let (left, top) = (x << 1, y << 1);
+    [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)]
+}
+
+/// The four cells of the level above that a cell is sampled from, as [`sampled`] takes them. A place left of or above the first
+/// one wraps to where there is none.
 #[inline(always)]
 pub(super) const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
-    // A place left of or above the first one wraps to where there is none.
-    let (own, beside) = (x >> 1, (x >> 1).wrapping_add(x & 1).wrapping_add(x & 1).wrapping_sub(1));
-    let (row, across) = (y >> 1, (y >> 1).wrapping_add(y & 1).wrapping_add(y & 1).wrapping_sub(1));
+    let (own, row) = (x >> 1, y >> 1);
+    let (beside, across) = ((x + (x & 1)).wrapping_sub(1 - (x & 1)) >> 1, (y + (y & 1)).wrapping_sub(1 - (y & 1)) >> 1);
     [(own, row), (beside, row), (own, across), (beside, across)]
 }
+
+/// The highest level below which all is pulled row by row where it is needed.
+const ROW_BY_ROW: u32 = 5;
 
 /// A pyramid being worked out.
 struct Filling<'f, 's, V> {
@@ -113,55 +163,80 @@ struct Filling<'f, 's, V> {
 }
 
 impl<V: Value> Filling<'_, '_, V> {
-    /// What is known of a cell of any level; nothing of a place that there is not.
-    #[inline(always)]
-    fn known(&self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) -> Known<V> {
-        if level > 0 {
-            return self.pyramid.known(self.pyramid.index(level, x, y));
-        }
-        let size = self.pyramid.levels().level(0);
-        if x < size.width && y < size.height { picture.known(x, y) } else { Known::default() }
-    }
-
     /// Pulls a cell whose four cells below are worked out.
     #[inline(always)]
     fn pull(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
-        let (below, left, top) = (level - 1, x << 1, y << 1);
-        let children = [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)]
-            .map(|(x, y)| self.known(picture, below, x, y));
+        let children = match level {
+            1 => picture.block(x, y),
+            _ => self.pyramid.indices(level - 1, below(x, y)).map(|index| self.pyramid.known(index)),
+        };
         let known = pulled(&children, self.rule, tie(x, y, level));
         let index = self.pyramid.index(level, x, y);
         self.pyramid.set(index, State::Pulled, known);
     }
 
-    /// What a cell of any level gets from above; all that it is sampled from is completed.
+    /// The linear sample at a place of `level`, from the cells above it, which are completed.
     #[inline(always)]
-    fn sample(&self, level: u32, x: u32, y: u32, depth: u32) -> Option<V> {
-        if level == self.pyramid.levels().top() {
-            return None;
-        }
-        let coarse = above(x, y).map(|(x, y)| self.pyramid.known(self.pyramid.index(level + 1, x, y)));
-        sampled(&coarse, depth, self.rule, tie(x, y, level))
+    fn sample(&self, level: u32, x: u32, y: u32, depth: u32, above: [usize; 4]) -> Option<V> {
+        sampled(&above.map(|index| self.pyramid.known(index)), depth, self.rule, tie(x, y, level))
+    }
+
+    /// Where in the pyramid the cells lie that a cell is sampled from.
+    #[inline(always)]
+    fn above(&self, level: u32, x: u32, y: u32) -> [usize; 4] {
+        self.pyramid.indices(level + 1, above(x, y))
     }
 
     /// Completes a pulled cell; all that it is sampled from is completed.
     #[inline(always)]
-    fn push(&mut self, level: u32, x: u32, y: u32) {
-        let index = self.pyramid.index(level, x, y);
+    fn push(&mut self, level: u32, x: u32, y: u32, index: usize) {
         let own = self.pyramid.known(index);
-        let from_above = if own.validity < FULL { self.sample(level, x, y, own.depth) } else { None };
+        let from_above =
+            if own.validity < FULL { self.sample(level, x, y, own.depth, self.above(level, x, y)) } else { None };
         self.pyramid.set(index, State::Completed, pushed(own, from_above, tie(x, y, level)));
     }
 
-    /// Pulls a cell, and before it what that needs.
-    fn want_pulled(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
-        if self.pyramid.state(self.pyramid.index(level, x, y)) != State::Untouched {
-            return;
+    /// Pulls those of `count` cells of a row that are untouched. What they are pulled from is worked out.
+    #[inline(always)]
+    fn pull_row(&mut self, picture: &impl Picture<Value = V>, level: u32, (x, y): (u32, u32), count: u32) {
+        let end = (x + count).min(self.pyramid.levels().level(level).width);
+        let row = self.pyramid.index(level, x, y);
+        let (mut at, mut index) = (x, row);
+        while at < end {
+            if level == 1
+                && end - at >= RUN as u32
+                && self.pyramid.are_untouched(index, RUN as u32)
+                && let Some(run) = picture.even_run(at, y, self.rule.threshold)
+            {
+                self.pyramid.set_run(index, &run);
+                at += RUN as u32;
+                index += RUN;
+                continue;
+            }
+            if self.pyramid.state(index) == State::Untouched {
+                self.pull(picture, level, at, y);
+            }
+            at += 1;
+            index += 1;
         }
-        if level > 1 {
-            let (left, top) = (x << 1, y << 1);
-            for (x, y) in [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)] {
-                self.want_pulled(picture, level - 1, x, y);
+    }
+
+    /// Pulls a cell, and before it what that needs: of the lower levels row by row, for there most is needed.
+    fn want_pulled(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
+        if level <= ROW_BY_ROW {
+            for below in 1..level {
+                let up = level - below;
+                let height = self.pyramid.levels().level(below).height;
+                for y in y << up..((y + 1) << up).min(height) {
+                    self.pull_row(picture, below, (x << up, y), 1 << up);
+                }
+            }
+        } else {
+            let places = below(x, y);
+            for ((x, y), index) in places.into_iter().zip(self.pyramid.indices(level - 1, places)) {
+                if self.pyramid.state(index) == State::Untouched {
+                    self.want_pulled(picture, level - 1, x, y);
+                }
             }
         }
         self.pull(picture, level, x, y);
@@ -169,27 +244,29 @@ impl<V: Value> Filling<'_, '_, V> {
 
     /// Completes a cell, and before it what that needs. A cell is overwritten only after its own coarse cell has been pulled
     /// from it: so whatever is pulled later sees what it would have seen before.
-    fn want_completed(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
-        let index = self.pyramid.index(level, x, y);
-        match self.pyramid.state(index) {
-            State::Completed => return,
-            State::Pulled => {}
-            State::Untouched => self.want_pulled(picture, level, x, y),
+    fn want_completed(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32, index: usize) {
+        if self.pyramid.state(index) == State::Untouched {
+            self.want_pulled(picture, level, x, y);
         }
         if self.pyramid.known(index).validity < FULL {
             self.want_above(picture, level, x, y);
-            self.push(level, x, y);
+            self.push(level, x, y, index);
+        } else {
+            self.pyramid.complete(index);
         }
     }
 
-    /// Completes what a cell is sampled from.
+    /// Completes what a cell is sampled from: where that lies.
     #[inline(always)]
-    fn want_above(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
-        if level < self.pyramid.levels().top() {
-            for (x, y) in above(x, y) {
-                self.want_completed(picture, level + 1, x, y);
+    fn want_above(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) -> [usize; 4] {
+        let places = above(x, y);
+        let indices = self.pyramid.indices(level + 1, places);
+        for ((x, y), index) in places.into_iter().zip(indices) {
+            if self.pyramid.state(index) < State::Completed {
+                self.want_completed(picture, level + 1, x, y, index);
             }
         }
+        indices
     }
 }
 
@@ -199,8 +276,8 @@ pub fn sparse<P: Picture>(picture: &mut P, pyramid: &mut Pyramid<'_, P::Value>, 
     pyramid.forget();
     let mut filling = Filling { pyramid, rule };
     picture.fill_holes(|picture, x, y| {
-        filling.want_above(picture, 0, x, y);
-        filling.sample(0, x, y, picture.known(x, y).depth)
+        let above = filling.want_above(picture, 0, x, y);
+        filling.sample(0, x, y, picture.known(x, y).depth, above)
     })
 }
 
@@ -212,18 +289,16 @@ pub fn dense<P: Picture>(picture: &mut P, pyramid: &mut Pyramid<'_, P::Value>, r
     for number in 1..=levels.top() {
         let level = levels.level(number);
         for y in 0..level.height {
-            for x in 0..level.width {
-                filling.pull(picture, number, x, y);
-            }
+            filling.pull_row(picture, number, (0, y), level.width);
         }
     }
     for number in (1..=levels.top()).rev() {
         let level = levels.level(number);
         for y in 0..level.height {
             for x in 0..level.width {
-                filling.push(number, x, y);
+                filling.push(number, x, y, filling.pyramid.index(number, x, y));
             }
         }
     }
-    picture.fill_holes(|picture, x, y| filling.sample(0, x, y, picture.known(x, y).depth))
+    picture.fill_holes(|picture, x, y| filling.sample(0, x, y, picture.known(x, y).depth, filling.above(0, x, y)))
 }

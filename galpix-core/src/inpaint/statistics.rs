@@ -4,7 +4,6 @@
 //! `E[X^2] - E[X]^2` (section 3.3.1 of the paper, where the sign is the other way round). Push-pull is such a mean. All means
 //! here are rounded to the nearest, so the difference can become negative by a trifle: then it counts as 0.
 
-use super::demand::Even;
 use super::mean::{divided, signed};
 use super::push_pull::Value;
 use super::root::nearest_of;
@@ -84,20 +83,7 @@ pub fn variance(mean: i16, square: u32) -> u32 {
 impl Value for Moments {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
-        if *weights == [16; 4] {
-            let [a, b, c, d] = values;
-            return Self::mean_of_known([a, b, c, d], tie);
-        }
         let mut mean = Self::default();
-        if *weights == [9, 3, 3, 1] {
-            let [a, b, c, d] = values;
-            for band in 0..BANDS {
-                mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
-                let sum = 9 * a.squares[band] + 3 * (b.squares[band] + c.squares[band]) + d.squares[band];
-                mean.squares[band] = (sum + 7 + tie) >> 4;
-            }
-            return mean;
-        }
         let sum = weights.iter().sum();
         for band in 0..BANDS {
             mean.means[band] = signed(values.map(|value| i32::from(value.means[band])), weights, tie) as i16;
@@ -106,19 +92,26 @@ impl Value for Moments {
         }
         mean
     }
-}
 
-impl Even for Moments {
     #[inline(always)]
-    fn mean_of_known([a, b, c, d]: [&Self; 4], tie: u32) -> Self {
+    fn plain_mean([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
         let mut mean = Self::default();
         for band in 0..BANDS {
-            let sum = i32::from(a.means[band])
-                + i32::from(b.means[band])
-                + i32::from(c.means[band])
-                + i32::from(d.means[band]);
-            mean.means[band] = ((sum + 1 + tie as i32) >> 2) as i16;
+            // Four responses fit 16 bits.
+            let sum = a.means[band] + b.means[band] + c.means[band] + d.means[band];
+            mean.means[band] = (sum + 1 + tie as i16) >> 2;
             mean.squares[band] = (a.squares[band] + b.squares[band] + c.squares[band] + d.squares[band] + 1 + tie) >> 2;
+        }
+        mean
+    }
+
+    #[inline(always)]
+    fn linear([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+        let mut mean = Self::default();
+        for band in 0..BANDS {
+            mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
+            let sum = 9 * a.squares[band] + 3 * (b.squares[band] + c.squares[band]) + d.squares[band];
+            mean.squares[band] = (sum + 7 + tie) >> 4;
         }
         mean
     }
@@ -135,18 +128,20 @@ impl Value for Statistics {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
         let mut mean = Self::default();
-        let [a, b, c, d] = values;
-        if *weights == [9, 3, 3, 1] {
-            for band in 0..BANDS {
-                mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
-                mean.deviations[band] =
-                    linear([a.deviations[band], b.deviations[band], c.deviations[band], d.deviations[band]], tie);
-            }
-            return mean;
-        }
         for band in 0..BANDS {
             mean.means[band] = signed(values.map(|value| i32::from(value.means[band])), weights, tie) as i16;
             mean.deviations[band] = signed(values.map(|value| i32::from(value.deviations[band])), weights, tie) as i16;
+        }
+        mean
+    }
+
+    #[inline(always)]
+    fn linear([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+        let mut mean = Self::default();
+        for band in 0..BANDS {
+            mean.means[band] = linear([a.means[band], b.means[band], c.means[band], d.means[band]], tie);
+            mean.deviations[band] =
+                linear([a.deviations[band], b.deviations[band], c.deviations[band], d.deviations[band]], tie);
         }
         mean
     }
@@ -163,7 +158,7 @@ mod tests {
             for tie in 0..2 {
                 let values = [value(k), value(-3 * k), value(5), value(k + 1)];
                 for band in 0..BANDS {
-                    let mean = Moments::mean(&values, &[16; 4], tie);
+                    let mean = Moments::plain_mean(&values, tie);
                     assert_eq!(
                         i32::from(mean.means[band]),
                         signed(values.map(|value| value.means[band].into()), &[16; 4], tie)
@@ -181,9 +176,9 @@ mod tests {
         for k in -60..60 {
             for tie in 0..2 {
                 let values = [value(k), value(-3 * k), value(5), value(k + 1)];
-                let mean = Statistics::mean(&values, &[9, 3, 3, 1], tie);
+                let mean = Statistics::linear(&values, tie);
                 let moments = values.map(|value| Moments::of(value.means));
-                let sampled = Moments::mean(&moments, &[9, 3, 3, 1], tie);
+                let sampled = Moments::linear(&moments, tie);
                 for band in 0..BANDS {
                     let sum =
                         moments.iter().zip([9, 3, 3, 1]).map(|(value, weight)| value.squares[band] * weight).sum();

@@ -1,6 +1,5 @@
 //! What the metameric rung takes means of: luma, chroma, and the motion that goes with them.
 
-use super::demand::Even;
 use super::map::{OfGalpixel, Uncovered, pyramid_depth};
 use super::mean::signed;
 use super::metamer::Scene;
@@ -39,18 +38,6 @@ impl Tone {
 impl Value for Tone {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
-        let [a, b, c, d] = values;
-        if *weights == [16; 4] {
-            return Self::mean_of_known([a, b, c, d], tie);
-        }
-        if *weights == [9, 3, 3, 1] {
-            let mut mean = *a;
-            for (channel, to) in mean.channels.iter_mut().enumerate() {
-                let [a, b, c, d] = [a.channels[channel], b.channels[channel], c.channels[channel], d.channels[channel]];
-                *to = (9 * a + 3 * (b + c) + d + 7 + tie as i16) >> 4;
-            }
-            return mean;
-        }
         let (mut source, mut most) = (0, 0);
         for (value, &weight) in values.iter().zip(weights) {
             if weight > most {
@@ -63,15 +50,23 @@ impl Value for Tone {
         }
         Self { channels, source }
     }
-}
 
-impl Even for Tone {
     #[inline(always)]
-    fn mean_of_known([a, b, c, d]: [&Self; 4], tie: u32) -> Self {
+    fn plain_mean([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
         let mut mean = *a;
         for (channel, to) in mean.channels.iter_mut().enumerate() {
             let sum = a.channels[channel] + b.channels[channel] + c.channels[channel] + d.channels[channel];
             *to = (sum + 1 + tie as i16) >> 2;
+        }
+        mean
+    }
+
+    #[inline(always)]
+    fn linear([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+        let mut mean = *a;
+        for (channel, to) in mean.channels.iter_mut().enumerate() {
+            let [a, b, c, d] = [a.channels[channel], b.channels[channel], c.channels[channel], d.channels[channel]];
+            *to = (9 * a + 3 * (b + c) + d + 7 + tie as i16) >> 4;
         }
         mean
     }
@@ -117,7 +112,7 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
         for (y, &row) in (0..).zip(grid.starts()) {
             let mut x = 0;
             while x < grid.width() {
-                let run = (grid.width() - x).min(super::map::RUN);
+                let run = (grid.width() - x).min(super::map::LOOK);
                 if self.map.any_just_unobscured(row + x, run) {
                     for x in x..x + run {
                         if self.map.class(row + x) == Class::JustUnobscured && self.is_asked_for(row + x) {

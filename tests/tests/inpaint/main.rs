@@ -10,7 +10,7 @@ use galpix_core::inpaint::levels;
 use galpix_core::inpaint::paint::Tint;
 use galpix_core::inpaint::picture::Masked;
 use galpix_core::inpaint::push_pull::{Rule, dense, pulled, sparse};
-use galpix_core::inpaint::pyramid::{Cell, Known, Pyramid};
+use galpix_core::inpaint::pyramid::{Cell, Known, Pyramid, state_words};
 use galpix_core::inpaint::validity::Gamma;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -38,7 +38,8 @@ impl Holed {
         }
         let mut colours = self.colours.clone();
         let mut memory = vec![Cell::default(); levels::cells(width, height)];
-        let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+        let mut states = vec![0; state_words(memory.len())];
+        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
         let mut picture = Masked::<Rgb888>::new(width, height, &mut colours, &bits, &self.depths).unwrap();
         let filled = match work {
             Work::Skipping => sparse(&mut picture, &mut pyramid, &rule),
@@ -71,12 +72,14 @@ fn rules() -> impl Strategy<Value = Rule> {
     (prop::sample::select(&Gamma::ALL[..]), threshold).prop_map(|(gamma, threshold)| Rule { gamma, threshold })
 }
 
-/// Sides of any parity; holes from none to all but one; depths of a few surfaces.
+/// Sides of any parity; holes from none to all; depths of a few surfaces, or of one.
 fn pictures() -> impl Strategy<Value = Holed> {
-    (1..=21u32, 1..=17u32, 0..=100u32).prop_flat_map(|(width, height, share)| {
+    let share = prop_oneof![0..=100u32, Just(1u32)];
+    let depth = prop_oneof![Just(0..64u32), Just(40..44u32)];
+    (1..=75u32, 1..=17u32, share, depth).prop_flat_map(|(width, height, share, depth)| {
         let cells = (width * height) as usize;
         let known = prop::collection::vec((0..100u32).prop_map(move |n| n >= share), cells);
-        let depths = prop::collection::vec(prop_oneof![0..64u32, Just(10), Just(60)], cells);
+        let depths = prop::collection::vec(prop_oneof![depth, Just(40)], cells);
         (prop::collection::vec(0..1u32 << 24, cells), known, depths).prop_map(move |(colours, known, depths)| Holed {
             size: [width, height],
             colours,
@@ -227,7 +230,8 @@ fn brightness_does_not_drift_over_levels() {
     let mean = colours.iter().map(|&colour| u64::from(colour & 255)).sum::<u64>() as f64 / f64::from(SIDE * SIDE);
     // One hole, and a weight of one all the way up: what it gets is the mean of the whole picture.
     let mut memory = vec![Cell::default(); levels::cells(SIDE, SIDE)];
-    let mut pyramid = Pyramid::new(SIDE, SIDE, &mut memory).unwrap();
+    let mut states = vec![0; state_words(memory.len())];
+    let mut pyramid = Pyramid::new(SIDE, SIDE, &mut memory, &mut states).unwrap();
     let mut held = colours.clone();
     let known = vec![u32::MAX; (SIDE * SIDE / 32) as usize];
     let mut picture = Masked::<Rgb888>::new(SIDE, SIDE, &mut held, &known, &[]).unwrap();
@@ -284,13 +288,14 @@ fn foreground_stays_out_of_the_background() {
 
 #[test]
 fn memory_that_does_not_fit_is_refused() {
-    let pyramid = |width, height| {
-        let mut memory = [Cell::<Tint>::default(); 20];
-        Pyramid::new(width, height, &mut memory).map(|_| ()).unwrap_err()
+    let pyramid = |width, height, cells: usize, states: usize| {
+        let (mut memory, mut states) = (vec![Cell::<Tint>::default(); cells], vec![0; states]);
+        Pyramid::new(width, height, &mut memory, &mut states).map(|_| ()).unwrap_err()
     };
-    assert_eq!(pyramid(8, 8), SetupError::TooShort { plane: "pyramid", need: 21, have: 20 });
+    assert_eq!(pyramid(8, 8, 20, 2), SetupError::TooShort { plane: "pyramid", need: 21, have: 20 });
+    assert_eq!(pyramid(8, 8, 21, 1), SetupError::TooShort { plane: "pyramid's states", need: 2, have: 1 });
     for (width, height) in [(0, 8), (8, 0), (32769, 1)] {
-        assert_eq!(pyramid(width, height), SetupError::Size { width, height });
+        assert_eq!(pyramid(width, height, 20, 2), SetupError::Size { width, height });
     }
     let picture = |colours: usize, known: usize, depths: usize| {
         let (mut colours, known, depths) = (vec![0; colours], vec![0; known], vec![0; depths]);

@@ -8,7 +8,7 @@ use galpix_core::galpixel::{Chosen, Class};
 use galpix_core::inpaint::levels;
 use galpix_core::inpaint::map::OfGalpixel;
 use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::pyramid::{Cell, Pyramid};
+use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
 use galpix_core::inpaint::validity::Gamma;
 use galpix_core::layout::{Full, Layout};
 use galpix_tests::lent::{cell_words, with_controller, words};
@@ -37,7 +37,8 @@ fn frames<V: OfGalpixel<Full>>(
     let content = stage.content::<Full, _>(budget, |_| {});
     let (width, height) = (stage.shape.columns(), stage.shape.rows());
     let mut memory = vec![Cell::<V>::default(); levels::cells(width, height)];
-    let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+    let mut states = vec![0; state_words(memory.len())];
+    let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
     with_controller(stage.shape, budget, Some(&content), |controller| {
         let one = |_| {
             controller.step(&settings(work));
@@ -73,7 +74,8 @@ fn only_what_was_just_uncovered_changes() {
     let content = stage.content::<Full, _>(budget, |_| {});
     let (width, height) = (stage.shape.columns(), stage.shape.rows());
     let mut memory = vec![Cell::<Tint>::default(); levels::cells(width, height)];
-    let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+    let mut states = vec![0; state_words(memory.len())];
+    let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
     with_controller(stage.shape, budget, Some(&content), |controller| {
         let settings = settings(Work::Skipping);
         for _ in 0..4 {
@@ -124,7 +126,8 @@ fn a_pyramid_of_another_size_does_no_harm() {
     let content = stage.content::<Full, _>(budget, |_| {});
     for (width, height) in [(1, 1), (5, 900), (2000, 3)] {
         let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
-        let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+        let mut states = vec![0; state_words(memory.len())];
+        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
         with_controller(stage.shape, budget, Some(&content), |controller| {
             for work in Work::ALL {
                 controller.step(&settings(work));
@@ -142,7 +145,8 @@ fn holes_move_as_a_known_galpixel_does() {
         let content = stage.content::<Full, _>(budget, |_| {});
         let (width, height) = (stage.shape.columns(), stage.shape.rows());
         let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
-        let mut pyramid = Pyramid::new(width, height, &mut memory).unwrap();
+        let mut states = vec![0; state_words(memory.len())];
+        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
         with_controller(stage.shape, budget, Some(&content), |controller| {
             let settings = settings(Work::Skipping);
             controller.step(&settings);

@@ -94,9 +94,9 @@ fn filled(
     let mut plate = plate.clone();
     let count = cells(plate.width, plate.height);
     let mut scratch = Scratch {
-        tones: &mut vec![Tone::default(); count],
-        moments: &mut vec![Moments::default(); count],
-        standings: [&mut vec![Standing::default(); count], &mut vec![Standing::default(); count]],
+        tones: &mut vec![Cell::unknown(Tone::default()); count],
+        moments: &mut vec![Cell::unknown(Moments::default()); count],
+        states: [&mut vec![0; state_words(count)], &mut vec![0; state_words(count)]],
         needs: &mut vec![Default::default(); needs::tiles(plate.width, plate.height, MOST_LEVELS)],
         noise: &mut noise::Tiles::default(),
     };
@@ -278,5 +278,5 @@ fn noise_moves_with_the_surface_and_not_with_the_screen() {
 fn memory_is_as_stated() {
     let of = |width, height| (bytes(width, height, 4) - size_of::<noise::Tiles>()).div_ceil(1024);
     std::println!("{:?} KiB", [of(128, 64), of(320, 240), of(1024, 1024), size_of::<noise::Tiles>().div_ceil(1024)]);
-    assert_eq!((size_of::<Tone>(), size_of::<Moments>()), (12, 36));
+    assert_eq!((size_of::<Cell<Tone>>(), size_of::<Cell<Moments>>()), (16, 40));
 }

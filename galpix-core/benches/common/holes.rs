@@ -1,0 +1,86 @@
+//! A picture with the holes that a step of the scene leaves.
+
+use galpix_core::edge;
+use galpix_core::fill::{self, Rung};
+use galpix_core::galpixel::{Class, Static};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::{Grid, Wings};
+use galpix_core::layout::Full;
+use galpix_core::rounding::Rounding;
+use galpix_core::sweep::sweep;
+use galpix_core::tally::Tally;
+
+use super::Panel;
+use super::scene::{Motion, samples};
+
+/// Which holes count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holes {
+    /// All that nothing reached.
+    All,
+    /// Those that are left when bullet holes are filled.
+    Slivers,
+}
+
+impl Holes {
+    /// As in tables.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::Slivers => "slivers",
+        }
+    }
+}
+
+/// Colours, a bit for each that is known, depths, and what makes foreground.
+pub struct Picture {
+    pub colours: Vec<u32>,
+    pub known: Vec<u32>,
+    pub depths: Vec<u32>,
+    pub threshold: u32,
+}
+
+impl Picture {
+    /// The part of the cells that are holes.
+    pub fn share(&self) -> f64 {
+        let known: u32 = self.known.iter().map(|word| word.count_ones()).sum();
+        1.0 - f64::from(known) / self.colours.len() as f64
+    }
+}
+
+/// The scene after a step.
+pub fn picture(width: u32, height: u32, holes: Holes) -> Picture {
+    let mut starts = vec![0; Grid::rows(height, Wings::NONE)];
+    let grid = Grid::new(width, height, Wings::NONE, &mut starts).expect("a size that can be laid out");
+    let budget = Static::<Panel>::new();
+    let words = Galpixmap::<Full, _>::words(&grid, budget);
+    let (mut before, mut after) = (vec![0; words], vec![0; words]);
+    let mut front = Galpixmap::<Full, _>::new(grid, budget, &mut before).expect("memory enough");
+    let mut back = Galpixmap::<Full, _>::new(grid, budget, &mut after).expect("memory enough");
+    for (row, y) in samples(width, height, Motion::Scene).chunks(width as usize).zip(0..) {
+        for (sample, x) in row.iter().zip(0..) {
+            front.store(x, y, &sample.galpixel());
+        }
+    }
+    let depth_bits = u32::from(front.record().depth().bits);
+    let threshold = edge::threshold_for_depth(depth_bits);
+    let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+    edge::mark(&front, threshold, &mut edges);
+    sweep(&front, &mut back, &mut winners, Rounding::default(), 1);
+    if holes == Holes::Slivers {
+        fill::fill(&front, &mut back, &mut winners, &edges, Rung::Extend, 1, &mut Tally::default());
+    }
+    let mut picture = Picture { colours: Vec::new(), known: vec![0; edges.len()], depths: Vec::new(), threshold };
+    for cell in 0..grid.cells() {
+        let (x, y) = ((cell % width) as i32, (cell / width) as i32);
+        let depth = back.load(x, y).map_or(0, |galpixel| (galpixel.depth.to_bits() >> (32 - depth_bits)) as u32);
+        picture.colours.push(back.colour(cell));
+        if back.class(cell) == Class::Galpixel {
+            picture.known[(cell / 32) as usize] |= 1 << (cell % 32);
+        }
+        // A hole of which nothing is known is as far away as can be.
+        let known = back.class(cell) != Class::Empty;
+        picture.depths.push(if known { depth } else { (1 << depth_bits) - 1 });
+    }
+    picture
+}

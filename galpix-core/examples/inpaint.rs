@@ -1,0 +1,120 @@
+//! Push-pull beside a memory copy and beside the textbook's in floats, in one run.
+//!
+//! ```sh
+//! cargo run --release -p galpix-core --example inpaint                              # 1024x1024, 15 rounds
+//! taskset -c 1 cargo run --release -p galpix-core --example inpaint -- 512x512 31   # pinned to a core
+//! ```
+//!
+//! The picture is what a step makes of the scene of the benches: `all` are all its holes, `slivers` those that are left when
+//! bullet holes are filled. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the columns mean is said in
+//! `benches/common/race.rs`.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use std::cell::RefCell;
+use std::hint::black_box;
+use std::process::ExitCode;
+use std::rc::Rc;
+
+use common::holes::{Holes, picture};
+use common::race::{Contender, arguments, race, table};
+use common::textbook::{Pixel, Textbook};
+use galpix_core::colour::Rgb888;
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::paint::Tint;
+use galpix_core::inpaint::picture::Masked;
+use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
+use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
+use galpix_core::inpaint::validity::Gamma;
+
+/// What others are compared with.
+const TEXTBOOK: &str = "textbook f32, dense";
+
+/// Bytes of the copy for each cell.
+const COPIED: usize = 20;
+
+fn main() -> ExitCode {
+    match arguments() {
+        Ok((size, rounds)) => {
+            compare(size, rounds);
+            ExitCode::SUCCESS
+        }
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn compare((width, height): (u32, u32), rounds: usize) {
+    let cells = width * height;
+    println!("{width}x{height}, {rounds} rounds");
+    let mut contenders = Vec::new();
+    for holes in [Holes::All, Holes::Slivers] {
+        let picture = Rc::new(picture(width, height, holes));
+        println!("{}: {:.2} % of the cells are holes", holes.name(), 100.0 * picture.share());
+        contenders.push(textbook(&picture, holes.name(), (width, height)));
+        let depth_aware = picture.threshold;
+        for (gamma, threshold) in
+            [(Gamma::Zero, u32::MAX), (Gamma::Zero, depth_aware), (Gamma::Half, depth_aware), (Gamma::One, depth_aware)]
+        {
+            let aware = if threshold == u32::MAX { "" } else { ", depth-aware" };
+            for (arrangement, is_dense) in [("sparse", false), ("dense", true)] {
+                let what = format!("push-pull, gamma {}{aware}, {arrangement}", gamma.name());
+                contenders.push(ours(
+                    &picture,
+                    what,
+                    holes.name(),
+                    (width, height),
+                    Rule { gamma, threshold },
+                    is_dense,
+                ));
+            }
+        }
+    }
+    race(&mut contenders, cells, rounds);
+    table(&contenders, cells, TEXTBOOK);
+}
+
+fn ours(
+    picture: &Rc<common::holes::Picture>,
+    what: String,
+    group: &str,
+    (width, height): (u32, u32),
+    rule: Rule,
+    is_dense: bool,
+) -> Contender {
+    let picture = Rc::clone(picture);
+    let colours = Rc::new(RefCell::new(picture.colours.clone()));
+    let mut memory = vec![Cell::<Tint>::default(); levels::cells(width, height)];
+    let mut states = vec![0; state_words(memory.len())];
+    let bytes = COPIED * (width * height) as usize;
+    let run = move || {
+        let mut colours = colours.borrow_mut();
+        let depths: &[u32] = if rule.threshold == u32::MAX { &[] } else { &picture.depths };
+        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).expect("memory enough");
+        let mut masked =
+            Masked::<Rgb888>::new(width, height, &mut colours, &picture.known, depths).expect("slices long enough");
+        let fill = if is_dense { dense } else { sparse };
+        black_box(fill(&mut masked, &mut pyramid, &rule));
+    };
+    Contender::new(what, group, bytes, Box::new(|| {}), Box::new(run))
+}
+
+fn textbook(picture: &Rc<common::holes::Picture>, group: &str, (width, height): (u32, u32)) -> Contender {
+    let pixels: Vec<Pixel> = (0..picture.colours.len())
+        .map(|cell| {
+            let colour = picture.colours[cell];
+            let channel = |shift: u32| (colour >> shift & 255) as f32;
+            let known = picture.known[cell / 32] >> (cell % 32) & 1;
+            [channel(16), channel(8), channel(0), known as f32]
+        })
+        .collect();
+    let mut textbook = Textbook::new(width as usize, height as usize);
+    let bytes = COPIED * (width * height) as usize;
+    let run = move || {
+        black_box(textbook.fill(black_box(&pixels)));
+    };
+    Contender::new(TEXTBOOK, group, bytes, Box::new(|| {}), Box::new(run))
+}
