@@ -21,6 +21,12 @@ use super::validity::FULL;
 /// Columns and rows of a pulled tile.
 const HALF: usize = TILE / 2;
 
+/// Levels of a tile above the cells that it is pulled from.
+const LEVELS: u32 = 4;
+
+/// Columns of level 1 of the tiles of tones that are pulled together.
+const ACROSS: u32 = 8 * HALF as u32;
+
 /// Level 0 of the tones: the picture.
 #[derive(Debug)]
 pub struct Below<'p, P>(pub &'p P);
@@ -63,13 +69,12 @@ impl<P: Scene> Below<'_, P> {
 }
 
 impl<P: Scene> Base<Tone> for Below<'_, P> {
-    const LEVELS: u32 = 4;
+    const LEVELS: u32 = LEVELS;
 
     /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture are long in
     /// memory: that is why they are read far along before the next one is.
     #[inline(never)]
     fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, rule: &Rule, x: u32, y: u32) {
-        const ACROSS: u32 = 8 * HALF as u32;
         let (start, top) = (x / ACROSS * ACROSS, y >> 3 << 3);
         let end = (start + ACROSS).min(pyramid.levels().level(1).width);
         let tiles = || (start..end).step_by(HALF);
@@ -105,16 +110,36 @@ pub struct Responses<'t, 'f, 's, P> {
 }
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
-    /// The cells of a row of the level.
+    /// Pulls what of the level lies in and around the tile that begins at `left`, `top`.
     #[inline(always)]
-    fn row(&mut self, left: u32, y: u32, cells: &mut Row) {
+    fn pull_tones(&mut self, left: u32, top: u32) {
+        // What comes together need be asked for once.
+        let (across, down) = match self.level {
+            0 => return,
+            level if level <= LEVELS => (ACROSS >> (level - 1), HALF as u32 >> (level - 1)),
+            _ => (1, 1),
+        };
+        let size = self.tones.pyramid.levels().level(self.level);
+        let first = |from: u32, step: u32| from.saturating_sub(APRON as u32) / step * step;
+        let end = |from: u32, end: u32| (from + (TILE + APRON) as u32).min(end);
+        for y in (first(top, down)..end(top, size.height)).step_by(down as usize) {
+            for x in (first(left, across)..end(left, size.width)).step_by(across as usize) {
+                self.tones.want_pulled(self.level, x, y);
+            }
+        }
+    }
+
+    /// The cells of a row of the level, which are pulled.
+    #[inline(always)]
+    fn row(&self, left: u32, y: u32, cells: &mut Row) {
         if self.level == 0 {
             return self.tones.base.0.row(left, y, cells);
         }
         let width = self.tones.pyramid.levels().level(self.level).width;
-        for x in left..width.min(left + (TILE + 2 * APRON) as u32) {
-            self.tones.want_pulled(self.level, x, y);
-            cells.set((x - left) as usize, &self.tones.pyramid.known(self.tones.pyramid.index(self.level, x, y)));
+        let first = self.tones.pyramid.index(self.level, left, y);
+        let count = (width - left).min((TILE + 2 * APRON) as u32) as usize;
+        for (column, (validity, depth, tone)) in self.tones.pyramid.run(first, count).enumerate() {
+            cells.set(column, validity, depth, tone);
         }
     }
 }
@@ -170,6 +195,7 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
     #[inline(always)]
     fn tile(&mut self, pyramid: &mut Pyramid<'_, Moments>, left: u32, top: u32, rule: &Rule) {
         let size = self.tones.pyramid.levels().level(self.level);
+        self.pull_tones(2 * left, 2 * top);
         let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
             self.row(left, y, cells);
         });
@@ -294,13 +320,22 @@ fn halved<V: Value, const CELLS: usize>(
         else {
             continue;
         };
-        *to = pulled(&[*a, *b, *c, *d], rule, tie(left + i as u32, top + j as u32, level));
+        let tie = tie(left + i as u32, top + j as u32, level);
+        let farthest = a.depth.max(b.depth).max(c.depth.max(d.depth));
+        let nearest = a.depth.min(b.depth).min(c.depth.min(d.depth));
+        if a.validity & b.validity & c.validity & d.validity == FULL && farthest - nearest <= rule.threshold {
+            to.validity = FULL;
+            to.depth = farthest;
+            to.value = V::plain_mean(&[a.value, b.value, c.value, d.value], tie);
+        } else {
+            *to = pulled(&[*a, *b, *c, *d], rule, tie);
+        }
     }
     halved
 }
 
 impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
-    const LEVELS: u32 = 4;
+    const LEVELS: u32 = LEVELS;
 
     /// Pulls the tile that a cell lies in: 8 x 8 cells of level 1, up to one of level 4.
     #[inline(never)]

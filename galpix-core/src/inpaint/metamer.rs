@@ -45,7 +45,8 @@ pub trait Scene: Picture<Value = Tone> {
     fn row(&self, left: u32, y: u32, cells: &mut Row) {
         let [width, _] = self.size();
         for x in left..width.min(left + COLUMNS as u32) {
-            cells.set((x - left) as usize, &self.known(x, y));
+            let Known { validity, depth, value } = self.known(x, y);
+            cells.set((x - left) as usize, validity, depth, &value);
         }
     }
 

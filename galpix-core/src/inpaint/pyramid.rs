@@ -155,6 +155,13 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
         Some((cell.meta >> DEPTH_BITS, cell.meta & ((1 << DEPTH_BITS) - 1), &cell.value))
     }
 
+    /// [`Self::parts`] of `count` neighbours, as far as there are so many.
+    #[inline(always)]
+    pub(super) fn run(&self, index: usize, count: usize) -> impl Iterator<Item = (u32, u32, &V)> {
+        let cells = self.cells.get(index..).unwrap_or_default();
+        cells.iter().take(count).map(|cell| (cell.meta >> DEPTH_BITS, cell.meta & ((1 << DEPTH_BITS) - 1), &cell.value))
+    }
+
     /// How much of a cell is known.
     #[inline(always)]
     pub(super) fn validity(&self, index: usize) -> u32 {

@@ -1,6 +1,5 @@
 //! Tiles: cells that are worked on side by side.
 
-use super::pyramid::Known;
 use super::steerable::{APRON, COLUMNS, Cells, ROWS, TILE};
 use super::tone::Tone;
 use super::validity::FULL;
@@ -19,15 +18,15 @@ pub struct Row {
 impl Row {
     /// Sets a cell; none beyond the last.
     #[inline(always)]
-    pub fn set(&mut self, column: usize, known: &Known<Tone>) {
+    pub fn set(&mut self, column: usize, validity: u32, depth: u32, tone: &Tone) {
         if column >= COLUMNS {
             return;
         }
-        for (channel, level) in self.channels.iter_mut().zip(known.value.channels) {
+        for (channel, level) in self.channels.iter_mut().zip(tone.channels) {
             channel[column] = level;
         }
-        self.depths[column] = known.depth as i32;
-        self.known[column] = -((known.validity == FULL) as i32);
+        self.depths[column] = depth as i32;
+        self.known[column] = -((validity == FULL) as i32);
     }
 
     /// Moves all cells to the right and repeats the first one.
