@@ -14,7 +14,7 @@ use super::push_pull::{Rule, Value, pulled};
 use super::pyramid::{Known, Pyramid, State};
 use super::statistics::{BANDS, Moments};
 use super::steerable::{APRON, Bands, TILE, bands};
-use super::tile::{Row, Surroundings};
+use super::tile::{ALL, Row, Surroundings};
 use super::tone::Tone;
 use super::validity::FULL;
 
@@ -107,6 +107,8 @@ pub struct Responses<'t, 'f, 's, P> {
     pub level: u32,
     /// What of the level above is asked for: of what is not, no moments are kept.
     pub needs: &'t Needs<'t>,
+    /// Where tiles are worked out.
+    pub workspace: &'t mut Workspace,
 }
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
@@ -128,23 +130,50 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
             }
         }
     }
+}
 
-    /// The cells of a row of the level, which are pulled.
-    #[inline(always)]
-    fn row(&self, left: u32, y: u32, cells: &mut Row) {
-        if self.level == 0 {
-            return self.tones.base.0.row(left, y, cells);
-        }
-        let width = self.tones.pyramid.levels().level(self.level).width;
-        let first = self.tones.pyramid.index(self.level, left, y);
-        let count = (width - left).min((TILE + 2 * APRON) as u32) as usize;
-        for (column, (validity, depth, tone)) in self.tones.pyramid.run(first, count).enumerate() {
-            cells.set(column, validity, depth, tone);
+/// The cells of a row of a level, which are pulled.
+#[inline(always)]
+fn row<P: Scene>(tones: &Demand<'_, '_, Tone, Below<'_, P>>, level: u32, left: u32, y: u32, cells: &mut Row) {
+    if level == 0 {
+        return tones.base.0.row(left, y, cells);
+    }
+    let width = tones.pyramid.levels().level(level).width;
+    let first = tones.pyramid.index(level, left, y);
+    let count = (width - left).min((TILE + 2 * APRON) as u32) as usize;
+    for (column, (validity, depth, tone)) in tones.pyramid.run(first, count).enumerate() {
+        cells.set(column, validity, depth, tone);
+    }
+}
+
+/// What a tile is worked out in, so that it need not be cleared for each.
+#[derive(Debug)]
+pub struct Workspace {
+    surroundings: Surroundings,
+    of_channels: [Bands; 3],
+    quads: Quads,
+}
+
+impl Workspace {
+    /// Nothing.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            surroundings: Surroundings::new(),
+            of_channels: [[[[0; TILE]; TILE]; 2]; 3],
+            quads: Quads { means: [[[0; HALF]; HALF]; BANDS], squares: [[[0; HALF]; HALF]; BANDS] },
         }
     }
 }
 
+impl Default for Workspace {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 /// The moments of four cells each of a tile.
+#[derive(Debug)]
 struct Quads {
     means: [[[i16; HALF]; HALF]; BANDS],
     squares: [[[u32; HALF]; HALF]; BANDS],
@@ -153,10 +182,9 @@ struct Quads {
 impl Quads {
     /// Means of four that weigh the same; `tie` is that of the first one.
     #[inline(always)]
-    fn new(of_channels: &[Bands; 3], tie: u32) -> Self {
-        let mut quads = Self { means: [[[0; HALF]; HALF]; BANDS], squares: [[[0; HALF]; HALF]; BANDS] };
+    fn pull(&mut self, of_channels: &[Bands; 3], tie: u32) {
         let of_bands = of_channels.as_flattened();
-        for ((means, squares), band) in quads.means.iter_mut().zip(&mut quads.squares).zip(of_bands) {
+        for ((means, squares), band) in self.means.iter_mut().zip(&mut self.squares).zip(of_bands) {
             for (y, (means, squares)) in means.iter_mut().zip(squares).enumerate() {
                 let (upper, lower) = (&band[2 * y], &band[2 * y + 1]);
                 // Down the columns first, where neighbours lie side by side.
@@ -173,7 +201,6 @@ impl Quads {
                 }
             }
         }
-        quads
     }
 
     #[inline(always)]
@@ -196,56 +223,68 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
     fn tile(&mut self, pyramid: &mut Pyramid<'_, Moments>, left: u32, top: u32, rule: &Rule) {
         let size = self.tones.pyramid.levels().level(self.level);
         self.pull_tones(2 * left, 2 * top);
-        let surroundings = Surroundings::new(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
-            self.row(left, y, cells);
+        let (tones, level) = (&*self.tones, self.level);
+        let Workspace { surroundings, of_channels, quads } = &mut *self.workspace;
+        surroundings.load(2 * left, 2 * top, [size.width, size.height], |left, y, cells| {
+            row(tones, level, left, y, cells);
         });
-        let whole = surroundings.whole(rule.threshold);
-        let mut of_channels: [Bands; 3] = [[[[0; TILE]; TILE]; 2]; 3];
-        for (cells, of_channel) in surroundings.channels.iter().zip(&mut of_channels) {
+        for (cells, of_channel) in surroundings.channels.iter().zip(of_channels.iter_mut()) {
             bands(cells, of_channel);
         }
-        let quads = Quads::new(&of_channels, tie(left, top, 1));
+        quads.pull(of_channels, tie(left, top, 1));
+        let mut whole = surroundings.whole(rule.threshold);
+        // What lies beyond the picture has no response.
+        let columns = u32::MAX.checked_shr(u32::BITS - (size.width - 2 * left).min(u32::BITS)).unwrap_or_default();
+        for (y, whole) in (2 * top..).zip(&mut whole) {
+            *whole &= if y < size.height { columns } else { 0 };
+        }
         let asked = self.needs.bits(self.level + 1, left, top);
-        let half = HALF as u32;
-        if whole.is_none() && 2 * (left + half) <= size.width && 2 * (top + half) <= size.height {
-            return even_tile(pyramid, (left, top), &quads, &surroundings, asked, rule);
+        if whole == [ALL; TILE] {
+            return even_tile(pyramid, (left, top), quads, surroundings, asked, rule);
         }
         let mut cells = [Known::default(); 64];
-        for (at, cell) in cells.iter_mut().enumerate() {
-            let (i, j) = (at % HALF, at / HALF);
-            let (x, y, column, row) = (left + i as u32, top + j as u32, 2 * i, 2 * j);
-            let depth = |dx: usize, dy: usize| surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
-            let inside = |dx: usize, dy: usize| 2 * x + (dx as u32) < size.width && 2 * y + (dy as u32) < size.height;
-            let whole = |dx: usize, dy: usize| {
-                whole.as_ref().is_none_or(|whole| whole[row + dy][column + dx]) && inside(dx, dy)
-            };
-            *cell = if whole(0, 0) & whole(1, 0) & whole(0, 1) & whole(1, 1) {
-                // They lie under each other's kernel: they are of one surface.
-                let depth = depth(0, 0).max(depth(1, 0)).max(depth(0, 1).max(depth(1, 1)));
-                Known { validity: FULL, depth, value: quads.moments(i, j) }
-            } else if inside(0, 0) {
-                let child = |dx: usize, dy: usize| {
-                    if !inside(dx, dy) {
-                        return Known::default();
-                    }
-                    let mut responses = [0; BANDS];
-                    for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
-                        *response = band[row + dy][column + dx];
-                    }
-                    let validity = if whole(dx, dy) { FULL } else { 0 };
-                    Known { validity, depth: depth(dx, dy), value: Moments::of(responses) }
+        for (j, (line, whole)) in cells.chunks_exact_mut(HALF).zip(whole.chunks_exact(2)).enumerate() {
+            let [upper, lower] = [whole[0], whole[1]];
+            for (i, cell) in line.iter_mut().enumerate() {
+                let (x, y, column, row) = (left + i as u32, top + j as u32, 2 * i, 2 * j);
+                let four = upper >> column & 3 | (lower >> column & 3) << 2;
+                let depth = depth_of(surroundings, i, j);
+                *cell = if four == 15 {
+                    // They lie under each other's kernel: they are of one surface.
+                    Known { validity: FULL, depth, value: quads.moments(i, j) }
+                } else if four == 0 {
+                    Known { validity: 0, depth, value: Moments::default() }
+                } else {
+                    let child = |at: usize| {
+                        let (dx, dy) = (at & 1, at >> 1);
+                        if 2 * x + dx as u32 >= size.width || 2 * y + dy as u32 >= size.height {
+                            return Known::default();
+                        }
+                        let mut responses = [0; BANDS];
+                        for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
+                            *response = band[row + dy][column + dx];
+                        }
+                        let depth = surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
+                        Known { validity: (four >> at & 1) * FULL, depth, value: Moments::of(responses) }
+                    };
+                    pulled(&[child(0), child(1), child(2), child(3)], rule, tie(x, y, 1))
                 };
-                pulled(&[child(0, 0), child(1, 0), child(0, 1), child(1, 1)], rule, tie(x, y, 1))
-            } else {
-                Known::default()
-            };
-            if asked >> at & 1 != 0 {
-                pyramid.set(pyramid.index(1, x, y), State::Pulled, *cell);
+                if asked >> (HALF * j + i) & 1 != 0 {
+                    pyramid.set(pyramid.index(1, x, y), State::Pulled, *cell);
+                }
             }
         }
         let second: Part<Moments, 16> = halved(&cells, 4, (left >> 1, top >> 1), 2, rule);
         pull_up(pyramid, rule, (left, top), &second);
     }
+}
+
+/// The farthest of four cells of a tile; beyond the picture its border is repeated.
+#[inline(always)]
+fn depth_of(surroundings: &Surroundings, x: usize, y: usize) -> u32 {
+    let (column, row) = (2 * x + APRON, 2 * y + APRON);
+    let [upper, lower] = [&surroundings.depths[row], &surroundings.depths[row + 1]];
+    upper[column].max(upper[column + 1]).max(lower[column].max(lower[column + 1])) as u32
 }
 
 /// Pulls a tile that is known throughout, of one surface, and within the picture: of level 1 only what is asked for is put together.
@@ -258,11 +297,7 @@ fn even_tile(
     mut asked: u64,
     rule: &Rule,
 ) {
-    let depth = |x: usize, y: usize| {
-        let (column, row) = (2 * x + APRON, 2 * y + APRON);
-        let [upper, lower] = [&surroundings.depths[row], &surroundings.depths[row + 1]];
-        upper[column].max(upper[column + 1]).max(lower[column].max(lower[column + 1])) as u32
-    };
+    let depth = |x: usize, y: usize| depth_of(surroundings, x, y);
     while asked != 0 {
         let at = asked.trailing_zeros() as usize;
         asked &= asked - 1;

@@ -17,7 +17,7 @@
 //! far as the level above.
 
 use super::demand::{Demand, sample};
-use super::features::{Below, Responses};
+use super::features::{Below, Responses, Workspace};
 use super::levels::{Levels, cells};
 use super::mean::tie;
 use super::needs::{self, Needs};
@@ -104,6 +104,8 @@ pub struct Scratch<'s> {
     pub states: [&'s mut [u32]; 2],
     /// [`needs::tiles`] of them, up to the level of the recipe.
     pub needs: &'s mut [needs::Tile],
+    /// Where tiles are worked out.
+    pub workspace: &'s mut Workspace,
     /// The noise that was last made.
     pub noise: &'s mut noise::Tiles,
 }
@@ -115,6 +117,7 @@ pub const fn bytes(width: u32, height: u32, levels: u32) -> usize {
     cells * (size_of::<Cell<Tone>>() + size_of::<Cell<Moments>>())
         + 2 * state_words(cells) * size_of::<u32>()
         + needs::tiles(width, height, levels) * size_of::<needs::Tile>()
+        + size_of::<Workspace>()
         + size_of::<noise::Tiles>()
 }
 
@@ -177,7 +180,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
         let size = levels.level(level);
         let mut moments = Pyramid::new(size.width, size.height, scratch.moments, of_moments)?;
         let mut tone_demand = Demand { pyramid: &mut tones, rule, base: Below(&*scene) };
-        let responses = Responses { tones: &mut tone_demand, level, needs: &needs };
+        let responses = Responses { tones: &mut tone_demand, level, needs: &needs, workspace: &mut *scratch.workspace };
         let mut demand = Demand { pyramid: &mut moments, rule, base: responses };
         if DENSE {
             let top = demand.pyramid.levels().top();

@@ -98,6 +98,7 @@ fn filled(
         moments: &mut vec![Cell::unknown(Moments::default()); count],
         states: [&mut vec![0; state_words(count)], &mut vec![0; state_words(count)]],
         needs: &mut vec![Default::default(); needs::tiles(plate.width, plate.height, MOST_LEVELS)],
+        workspace: &mut Workspace::new(),
         noise: &mut noise::Tiles::default(),
     };
     let count = run(&mut plate, &mut scratch, recipe).unwrap();
