@@ -84,3 +84,35 @@ pub fn picture(width: u32, height: u32, holes: Holes) -> Picture {
     }
     picture
 }
+
+/// A textured background with strips of holes that make up so many thousandths of it: upright, one to eight cells wide and up to 96 high, with
+/// foreground on their left.
+pub fn strips(width: u32, height: u32, share: u32) -> Picture {
+    let mut holed = picture(width, height, Holes::Slivers);
+    let (near, far) = (holed.threshold, 40 * holed.threshold);
+    holed.known.fill(u32::MAX);
+    holed.depths.fill(far);
+    let wanted = (u64::from(width) * u64::from(height) * u64::from(share) / 1000) as u32;
+    let (mut holes, mut bits) = (0, 1u64);
+    let mut next = |end: u32| {
+        bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((bits >> 33) % u64::from(end)) as u32
+    };
+    while holes < wanted {
+        let (left, top, wide, high) = (next(width), next(height), 1 + next(8), 8 + next(89));
+        for y in top..(top + high).min(height) {
+            for x in left..(left + wide + 8).min(width) {
+                let cell = y * width + x;
+                let (word, bit) = ((cell / 32) as usize, 1 << (cell % 32));
+                if x >= left + 8 {
+                    holes += u32::from(holed.known[word] & bit != 0);
+                    holed.known[word] &= !bit;
+                    holed.depths[cell as usize] = far;
+                } else {
+                    holed.depths[cell as usize] = near;
+                }
+            }
+        }
+    }
+    holed
+}
