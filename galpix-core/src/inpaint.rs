@@ -7,6 +7,8 @@
 //!
 //! 1. [`quads`]: which depth the background has in the holes
 //! 2. [`push_pull`]: known cells are pulled into a pyramid, what is missing is pushed down from it; foreground keeps out
+//! 3. [`metamer`], where a texture is wanted: push-pull of tones, and of the moments of what [`steerable`] bands respond to, and
+//!    [`noise`] of these moments that moves with the picture
 //!
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.

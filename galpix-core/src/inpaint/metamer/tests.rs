@@ -5,6 +5,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::*;
+use crate::inpaint::push_pull;
 
 /// A picture whose holes have a depth, and whose cells all move alike.
 #[derive(Clone)]
@@ -63,7 +64,10 @@ impl Picture for Plate {
         Known { validity: if self.known[cell] { FULL } else { 0 }, depth: self.depths[cell], value: self.tones[cell] }
     }
 
-    fn fill_holes(&mut self, _: impl FnMut(&Self, u32, u32) -> Option<Tone>) -> u32 {
+    fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<Tone>) -> u32 {
+        let mut filled = self.clone();
+        self.holes(|x, y| filled.put(x, y, value(self, x, y).unwrap()));
+        *self = filled;
         0
     }
 }
@@ -213,8 +217,11 @@ fn holes_vary_as_what_surrounds_them_does() {
     let truth = Plate::new(160, 120, gravel).with_holes(slivers);
     let metamer = filled(&truth, &Recipe::new(8, 0), sparse);
     let paper = filled(&truth, &Recipe { noise: Scale::Interval, ..Recipe::new(8, 0) }, sparse);
-    // One level of the paper's scale is next to no detail: next to push-pull.
-    let bare = filled(&truth, &Recipe { levels: 1, noise: Scale::Interval, ..Recipe::new(8, 0) }, sparse);
+    let mut bare = truth.clone();
+    let count = cells(truth.width, truth.height);
+    let (mut tones, mut states) = (vec![Cell::unknown(Tone::default()); count], vec![0; state_words(count)]);
+    let mut pyramid = Pyramid::new(truth.width, truth.height, &mut tones, &mut states).unwrap();
+    push_pull::sparse(&mut bare, &mut pyramid, &Recipe::new(8, 0).rule);
     for channel in 0..3 {
         let ratio = |plate: &Plate| {
             (
@@ -223,13 +230,17 @@ fn holes_vary_as_what_surrounds_them_does() {
             )
         };
         std::println!(
-            "channel {channel}: metamer {:.2?}, interval {:.2?}, one level {:.2?}",
+            "channel {channel}: metamer {:.2?}, interval {:.2?}, push-pull {:.2?}",
             ratio(&metamer),
             ratio(&paper),
             ratio(&bare)
         );
         let (variance, texture) = ratio(&metamer);
         assert!((0.6..1.6).contains(&variance) && (0.6..1.6).contains(&texture), "{channel}: {variance} {texture}");
+        for plate in [&paper, &bare] {
+            assert!(ratio(plate).0 < 0.5 * variance && ratio(plate).1 < 0.5 * texture);
+        }
+        assert!(ratio(&bare).1 < ratio(&paper).1);
     }
 }
 
