@@ -13,7 +13,7 @@ use crate::layout::Layout;
 use crate::record::Words;
 
 /// Cells that are looked at once.
-const LOOK: u32 = 32;
+pub(super) const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel<L: Layout>: Value {
@@ -59,7 +59,7 @@ impl<L: Layout> OfGalpixel<L> for Moving {
 /// A galpixmap whose cells of class just unobscured are its holes.
 #[derive(Debug)]
 pub struct Uncovered<'m, 'p, L, B, V> {
-    map: &'m mut Galpixmap<'p, L, B>,
+    pub(super) map: &'m mut Galpixmap<'p, L, B>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
     value: PhantomData<V>,
@@ -73,7 +73,7 @@ impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, 
     }
 
     #[inline(always)]
-    fn is_asked_for(&self, cell: u32) -> bool {
+    pub(super) fn is_asked_for(&self, cell: u32) -> bool {
         self.mask.is_empty()
             || self.mask.get((cell / u32::BITS) as usize).is_some_and(|word| word >> (cell % u32::BITS) & 1 != 0)
     }

@@ -1,6 +1,7 @@
 //! Push-pull: the same bits as a slow text of the same rules, sparse or dense, and what must hold for any picture.
 
 mod map;
+mod metamer;
 mod slow;
 
 use galpix_core::colour::{Gray8, Rgb888};
