@@ -47,13 +47,19 @@ impl<L: Layout> OfGalpixel<L> for Moving {
 
     #[inline(always)]
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
-        let record = map.record();
-        let mut moving = map.words_at(self.source).unwrap_or(words);
-        for field in [record.class(), record.depth()] {
-            field.set(&mut moving, field.unsigned(&words));
-        }
-        OfGalpixel::<L>::put_into(self.tint, map, moving)
+        OfGalpixel::<L>::put_into(self.tint, map, moving_as(map, self.source, words))
     }
+}
+
+/// The words of a galpixel with class and depth of the hole that held `words`.
+#[inline(always)]
+pub(super) fn moving_as<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, source: u32, words: Words) -> Words {
+    let record = map.record();
+    let mut moving = map.words_at(source).unwrap_or(words);
+    for field in [record.class(), record.depth()] {
+        field.set(&mut moving, field.unsigned(&words));
+    }
+    moving
 }
 
 /// A galpixmap whose cells of class just unobscured are its holes.
