@@ -7,9 +7,11 @@ use crate::fill::{Rung, fill};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::inpaint::map::{OfGalpixel, Uncovered};
+use crate::inpaint::metamer::{self, Recipe};
 use crate::inpaint::push_pull::{self, Rule};
 use crate::inpaint::pyramid::{DEPTH_BITS, Pyramid};
 use crate::inpaint::quads::lay_background;
+use crate::inpaint::tone::Tone;
 use crate::inpaint::validity::Gamma;
 use crate::layout::Layout;
 use crate::rounding::Rounding;
@@ -177,11 +179,35 @@ impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
         inpainting: &Inpainting<'_>,
         pyramid: &mut Pyramid<'_, V>,
     ) -> u32 {
+        self.lay_background(settings, inpainting);
+        inpainting.fill(&mut self.front, settings.work, pyramid)
+    }
+
+    /// Fills what the last step uncovered by metamers: as [`Self::inpaint`], with a texture. Of `recipe` the rule and the age are
+    /// not asked: those of `inpainting` count, and the frame counter, which [`Self::set_frame`] sets to 0 with an update.
+    ///
+    /// *Errors:* memory that is too short for the map; then nothing is filled.
+    pub fn synthesise(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        recipe: &Recipe,
+        scratch: &mut metamer::Scratch<'_>,
+    ) -> Result<u32, SetupError> {
+        self.lay_background(settings, inpainting);
+        let recipe = Recipe { rule: inpainting.rule, age: self.frame, ..*recipe };
+        let mut scene = Uncovered::<L, B, Tone>::new(&mut self.front, inpainting.mask);
+        match settings.work {
+            Work::Skipping => metamer::sparse(&mut scene, scratch, &recipe),
+            Work::Constant => metamer::dense(&mut scene, scratch, &recipe),
+        }
+    }
+
+    fn lay_background(&mut self, settings: &Settings, inpainting: &Inpainting<'_>) {
         if inpainting.quads {
             let frame = self.frame.wrapping_sub(1);
             lay_background(&self.back, &mut self.front, self.scratch.edges, settings.rounding, frame);
         }
-        inpainting.fill(&mut self.front, settings.work, pyramid)
     }
 
     /// The map that is shown.

@@ -243,7 +243,16 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
     #[inline(always)]
     #[must_use]
     pub fn colour(&self, cell: u32) -> u32 {
-        self.words_at(cell).map_or(0, |words| self.record().colour().unsigned(&words))
+        self.colours(cell as usize..cell as usize + 1).next().unwrap_or_default()
+    }
+
+    /// The colour words of some cells; nothing if they are not all in the map.
+    #[inline(always)]
+    pub(crate) fn colours(&self, cells: Range<usize>) -> impl ExactSizeIterator<Item = u32> {
+        let field = self.record().colour();
+        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
+        let ((upper, lower), extract) = (field.words(), field.extract());
+        plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.unsigned(upper, lower))
     }
 
     /// The colour at column `x`, row `y` as 8-bit red, green and blue.

@@ -7,16 +7,29 @@
 //!
 //! 1. [`quads`]: which depth the background has in the holes
 //! 2. [`push_pull`]: known cells are pulled into a pyramid, what is missing is pushed down from it; foreground keeps out
+//! 3. [`metamer`], where a texture is wanted: push-pull of tones, and of the moments of what [`steerable`] bands respond to, and
+//!    [`noise`] of these moments that moves with the picture
 //!
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
 
+pub mod demand;
+pub mod features;
 pub mod levels;
 pub mod map;
 pub mod mean;
+pub mod metamer;
+pub mod needs;
+pub mod noise;
 pub mod paint;
 pub mod picture;
 pub mod push_pull;
 pub mod pyramid;
 pub mod quads;
+pub mod root;
+pub mod statistics;
+pub mod steerable;
+pub mod tile;
+pub mod tone;
 pub mod validity;
+pub mod ycbcr;

@@ -13,12 +13,12 @@ use crate::layout::Layout;
 use crate::record::Words;
 
 /// Cells that are looked at once.
-const LOOK: u32 = 32;
+pub(super) const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel<L: Layout>: Value {
-    /// What a cell with these words holds.
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self;
+    /// What a cell of this colour holds.
+    fn of(colour: u32, cell: u32) -> Self;
 
     /// The words of a hole that held `words` and gets this.
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words;
@@ -27,8 +27,8 @@ pub trait OfGalpixel<L: Layout>: Value {
 /// The colour alone: the motion stays the one that the fill ladder gave.
 impl<L: Layout> OfGalpixel<L> for Tint {
     #[inline(always)]
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        Self::of::<L::Colour>(map.colour(cell))
+    fn of(colour: u32, _: u32) -> Self {
+        Self::of::<L::Colour>(colour)
     }
 
     #[inline(always)]
@@ -41,25 +41,31 @@ impl<L: Layout> OfGalpixel<L> for Tint {
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl<L: Layout> OfGalpixel<L> for Moving {
     #[inline(always)]
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        Self { tint: OfGalpixel::<L>::of(map, cell), source: cell }
+    fn of(colour: u32, cell: u32) -> Self {
+        Self { tint: Tint::of::<L::Colour>(colour), source: cell }
     }
 
     #[inline(always)]
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
-        let record = map.record();
-        let mut moving = map.words_at(self.source).unwrap_or(words);
-        for field in [record.class(), record.depth()] {
-            field.set(&mut moving, field.unsigned(&words));
-        }
-        OfGalpixel::<L>::put_into(self.tint, map, moving)
+        OfGalpixel::<L>::put_into(self.tint, map, moving_as(map, self.source, words))
     }
+}
+
+/// The words of a galpixel with class and depth of the hole that held `words`.
+#[inline(always)]
+pub(super) fn moving_as<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, source: u32, words: Words) -> Words {
+    let record = map.record();
+    let mut moving = map.words_at(source).unwrap_or(words);
+    for field in [record.class(), record.depth()] {
+        field.set(&mut moving, field.unsigned(&words));
+    }
+    moving
 }
 
 /// A galpixmap whose cells of class just unobscured are its holes.
 #[derive(Debug)]
 pub struct Uncovered<'m, 'p, L, B, V> {
-    map: &'m mut Galpixmap<'p, L, B>,
+    pub(super) map: &'m mut Galpixmap<'p, L, B>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
     value: PhantomData<V>,
@@ -82,14 +88,14 @@ impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, 
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
         if class == Class::Galpixel as u32 {
-            Known { validity: FULL, depth, value: V::of(self.map, cell) }
+            Known { validity: FULL, depth, value: V::of(self.map.colour(cell), cell) }
         } else {
             Known { validity: 0, depth, value: V::default() }
         }
     }
 
     #[inline(always)]
-    fn is_asked_for(&self, cell: u32) -> bool {
+    pub(super) fn is_asked_for(&self, cell: u32) -> bool {
         self.mask.is_empty()
             || self.mask.get((cell / u32::BITS) as usize).is_some_and(|word| word >> (cell % u32::BITS) & 1 != 0)
     }
@@ -166,10 +172,18 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         if all >> bits != 0 || uneven != 0 {
             return None;
         }
-        for (i, (_, value)) in (0..).zip(run.iter_mut()) {
-            let cells = [upper + 2 * i, upper + 2 * i + 1, lower + 2 * i, lower + 2 * i + 1];
-            let four = each(cells, |cell| V::of(self.map, cell));
-            *value = V::plain_mean(&four, tie(x + i, y, 1));
+        let values = |cell: u32| {
+            let mut values = [V::default(); CELLS];
+            let colours = self.map.colours(cell as usize..cell as usize + CELLS);
+            for ((value, colour), cell) in values.iter_mut().zip(colours).zip(cell..) {
+                *value = V::of(colour, cell);
+            }
+            values
+        };
+        let (upper, lower) = (values(upper), values(lower));
+        for (i, (_, value)) in run.iter_mut().enumerate() {
+            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]];
+            *value = V::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)
     }

@@ -156,7 +156,7 @@ pub(super) const fn below(x: u32, y: u32) -> [(u32, u32); 4] {
 /// The four cells of the level above that a cell is sampled from, as [`sampled`] takes them. A place left of or above the first
 /// one wraps to where there is none.
 #[inline(always)]
-const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
+pub(super) const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
     let (own, row) = (x >> 1, y >> 1);
     let (beside, across) = ((x + (x & 1)).wrapping_sub(1 - (x & 1)) >> 1, (y + (y & 1)).wrapping_sub(1 - (y & 1)) >> 1);
     [(own, row), (beside, row), (own, across), (beside, across)]

@@ -149,6 +149,26 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
         self.cells.get(index).map_or(Known { validity: 0, depth: 0, value: V::default() }, |cell| cell.known())
     }
 
+    /// Validity and depth of a cell, and its value where it lies; nothing of a place that there is not.
+    #[inline(always)]
+    pub(super) fn parts(&self, index: usize) -> Option<(u32, u32, &V)> {
+        let cell = self.cells.get(index)?;
+        Some((cell.meta >> DEPTH_BITS, cell.meta & ((1 << DEPTH_BITS) - 1), &cell.value))
+    }
+
+    /// [`Self::parts`] of `count` neighbours, as far as there are so many.
+    #[inline(always)]
+    pub(super) fn run(&self, index: usize, count: usize) -> impl Iterator<Item = (u32, u32, &V)> {
+        let cells = self.cells.get(index..).unwrap_or_default();
+        cells.iter().take(count).map(|cell| (cell.meta >> DEPTH_BITS, cell.meta & ((1 << DEPTH_BITS) - 1), &cell.value))
+    }
+
+    /// How much of a cell is known.
+    #[inline(always)]
+    pub(super) fn validity(&self, index: usize) -> u32 {
+        self.parts(index).map_or(0, |(validity, ..)| validity)
+    }
+
     /// Whether some neighbours, at most sixteen, are all untouched.
     #[inline(always)]
     pub(super) fn are_untouched(&self, index: usize, count: u32) -> bool {

@@ -12,7 +12,7 @@
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::propagate::{advance, thresholds};
+use crate::propagate::{advance, cells_moved, thresholds};
 use crate::record::{Record, Words};
 use crate::rounding::Rounding;
 
@@ -35,16 +35,25 @@ pub const fn unpartitioned(key: u32, bits: u32) -> (u32, bool) {
     if key >> bits == 0 { (key, false) } else { ((2 << bits) - 1 - key, true) }
 }
 
-/// A corner of a quad after the step.
+/// A corner of a quad: the cell that it was, and the place where it is after the step.
 #[derive(Clone, Copy)]
 struct Corner {
+    cell: u32,
     x: i32,
     y: i32,
-    depth: u32,
+}
+
+/// Two maps, one before the other.
+struct Step<'s, 'p, 'q, L, B> {
+    before: &'s Galpixmap<'p, L, B>,
+    map: &'s mut Galpixmap<'q, L, B>,
+    thresholds: [i32; 3],
+    /// Ones in all fields from which a step in the plane follows.
+    motion: Words,
 }
 
 /// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
-/// that the ladder gave them is farther: of how many it changed the depth.
+/// that the ladder gave them is farther: how often it made one deeper.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
 pub fn lay_background<L: Layout, B: Budget<L>>(
@@ -58,56 +67,37 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
         return 0;
     }
     let thresholds = thresholds(before.record(), rounding, frame);
-    let motion = motion(before.record());
-    let (width, height) = (before.grid().width(), before.grid().height());
+    let (width, starts) = (before.grid().width(), before.grid().starts());
+    let mut step = Step { before, map, thresholds, motion: motion(before.record()) };
     let mut changed = 0;
-    for y in 0..height.saturating_sub(1) as i32 {
-        let (Some(row), Some(next)) = (before.grid().row(y), before.grid().row(y + 1)) else { continue };
-        let column =
-            |x: u32| [corner(before, row + x, x, y, &thresholds), corner(before, next + x, x, y + 1, &thresholds)];
-        let mut right: Option<[Option<Corner>; 2]> = None;
-        let mut begin = 1;
-        while begin < width {
-            let on_edge = on_edge(edges, row + begin - 1) | on_edge(edges, next + begin - 1);
-            // A bit for each quad: two columns of it.
-            let mut quads = on_edge | on_edge >> 1;
-            let end = (begin + QUADS).min(width);
-            if quads == 0 {
-                (right, begin) = (None, end);
-                continue;
+    for (y, (&row, &next)) in (0..).zip(starts.iter().zip(starts.iter().skip(1))) {
+        let mut x = 0;
+        while x + 1 < width {
+            let run = (width - 1 - x).min(RUN);
+            // Bit i: a corner in column x + i is on an edge.
+            let columns = bits(edges, row + x) | bits(edges, next + x);
+            let quads = (columns | columns >> 1) & ((1 << run) - 1);
+            if quads != 0 {
+                changed += step.draw_run(quads as u32, x, y, row, next);
             }
-            for x in begin..end {
-                let edge = quads & 1 != 0;
-                quads >>= 1;
-                if !edge || moves_as_one(before, &motion, [row + x - 1, next + x - 1]) {
-                    right = None;
-                    continue;
-                }
-                let left = right.unwrap_or_else(|| column(x - 1));
-                let new = column(x);
-                right = Some(new);
-                if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (left, new) {
-                    changed += draw([a, b, c, d], map);
-                }
-            }
-            begin = end;
+            x += run;
         }
     }
     changed
 }
 
-/// Quads beside each other whose columns fit into a word of the edge map.
-const QUADS: u32 = u32::BITS - 1;
+/// Quads that are looked at once.
+const RUN: u32 = 32;
 
-/// Which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the map is.
+/// The edge bits of 33 cells from `cell` on, and more.
 #[inline(always)]
-fn on_edge(edges: &[u32], cell: u32) -> u32 {
-    let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
-    let (at, shift) = ((cell / u32::BITS) as usize, cell % u32::BITS);
-    word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
+fn bits(edges: &[u32], cell: u32) -> u64 {
+    let word = |word: u32| u64::from(edges.get(word as usize).copied().unwrap_or(u32::MAX));
+    let at = cell / u32::BITS;
+    (word(at) | word(at + 1) << u32::BITS) >> (cell % u32::BITS)
 }
 
-/// Ones in all fields from which a step in the plane follows.
+/// See [`Step::motion`].
 fn motion(record: &Record) -> Words {
     let mut motion = Words::default();
     let fields = [record.velocity(0), record.velocity(1), record.acceleration(0), record.acceleration(1)];
@@ -117,75 +107,112 @@ fn motion(record: &Record) -> Words {
     motion
 }
 
-/// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn.
-#[inline(always)]
-fn moves_as_one<L: Layout, B: Budget<L>>(before: &Galpixmap<'_, L, B>, motion: &Words, cells: [u32; 2]) -> bool {
-    let mut differ = 0;
-    for (plane, mask) in before.planes().iter().zip(motion).take(before.record().words()) {
-        let two = |cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<2>).copied();
-        let (Some([a, b]), Some([c, d])) = (two(cells[0]), two(cells[1])) else { return false };
-        differ |= ((a ^ b) | (a ^ c) | (a ^ d)) & mask;
-    }
-    differ == 0
-}
-
-/// A cell of the map before as a corner; none if it is empty.
-#[inline(always)]
-fn corner<L: Layout, B: Budget<L>>(
-    before: &Galpixmap<'_, L, B>,
-    cell: u32,
-    x: u32,
-    y: i32,
-    thresholds: &[i32; 3],
-) -> Option<Corner> {
-    let mut words = before.words_at(cell)?;
-    let record = before.record();
-    if record.class().unsigned(&words) == Class::Empty as u32 {
-        return None;
-    }
-    let step = advance::<L, true>(record, thresholds, &mut words);
-    Some(Corner { x: x as i32 + step.dx, y: y + step.dy, depth: record.depth().unsigned(&words) })
-}
-
-/// Draws a quad into the holes under it, if it is stretched.
-#[inline(always)]
-fn draw<L: Layout, B: Budget<L>>(corners: [Corner; 4], map: &mut Galpixmap<'_, L, B>) -> u32 {
-    let low = corners.iter().fold((i32::MAX, i32::MAX), |low, corner| (low.0.min(corner.x), low.1.min(corner.y)));
-    let high = corners.iter().fold((i32::MIN, i32::MIN), |high, corner| (high.0.max(corner.x), high.1.max(corner.y)));
-    let (across, down) = (high.0 - low.0, high.1 - low.1);
-    // A quad that still touches all cells between its corners covers no hole.
-    if across < 2 && down < 2 || across > LARGEST || down > LARGEST {
-        return 0;
-    }
-    let depth = corners.iter().fold(0, |farthest, corner| farthest.max(corner.depth));
-    draw_holes(&corners, (low, high), depth, map)
-}
-
-#[inline(never)]
-fn draw_holes<L: Layout, B: Budget<L>>(
-    corners: &[Corner; 4],
-    (low, high): ((i32, i32), (i32, i32)),
-    depth: u32,
-    map: &mut Galpixmap<'_, L, B>,
-) -> u32 {
-    let bits = u32::from(map.record().depth().bits);
-    let key = partitioned(depth, true, bits);
-    let mut changed = 0;
-    for y in low.1..=high.1 {
-        for x in low.0..=high.0 {
-            let Some(cell) = map.grid().cell(x, y) else { continue };
-            let Some(mut words) = map.words_at(cell) else { continue };
-            let record = *map.record();
-            let hole = record.class().unsigned(&words) == Class::JustUnobscured as u32;
-            // Of a known surface nothing farther is seen: its key is in the nearer half.
-            if key < partitioned(record.depth().unsigned(&words), hole, bits) && covers(corners, x, y) {
-                record.depth().set(&mut words, unpartitioned(key, bits).0);
-                map.put(cell, &words);
-                changed += 1;
+impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
+    /// Draws the quads right of column `x + i` for all set bits `i`.
+    #[inline(never)]
+    fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, row: u32, next: u32) -> u32 {
+        let mut changed = 0;
+        let mut known: Option<(u32, [Option<Corner>; 2])> = None;
+        while quads != 0 {
+            let left = x + quads.trailing_zeros();
+            quads &= quads - 1;
+            if self.moves_as_one([row + left, next + left]) {
+                continue;
+            }
+            let column = |x: u32| [self.corner(row + x, x, y), self.corner(next + x, x, y + 1)];
+            let lefts = match known {
+                Some((x, corners)) if x == left => corners,
+                _ => column(left),
+            };
+            let rights = column(left + 1);
+            known = Some((left + 1, rights));
+            if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (lefts, rights) {
+                changed += self.draw([a, b, c, d]);
             }
         }
+        changed
     }
-    changed
+
+    /// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn. Most are not.
+    #[inline(always)]
+    fn moves_as_one(&self, cells: [u32; 2]) -> bool {
+        let mut differ = 0;
+        for (plane, mask) in self.before.planes().iter().zip(self.motion).take(self.before.record().words()) {
+            let two = |cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<2>).copied();
+            let (Some([a, b]), Some([c, d])) = (two(cells[0]), two(cells[1])) else { return false };
+            differ |= ((a ^ b) | (a ^ c) | (a ^ d)) & mask;
+        }
+        differ == 0
+    }
+
+    /// A cell of the map before as a corner; none if it is empty.
+    #[inline(always)]
+    fn corner(&self, cell: u32, x: u32, y: i32) -> Option<Corner> {
+        let words = self.before.words_at(cell)?;
+        let record = self.before.record();
+        if record.class().unsigned(&words) == Class::Empty as u32 {
+            return None;
+        }
+        let [dx, dy] = cells_moved::<L>(record, &self.thresholds, &words);
+        Some(Corner { cell, x: x as i32 + dx, y: y + dy })
+    }
+
+    /// Draws a quad into the holes under it, if it is stretched.
+    #[inline(always)]
+    fn draw(&mut self, corners: [Corner; 4]) -> u32 {
+        let low = corners.iter().fold((i32::MAX, i32::MAX), |low, corner| (low.0.min(corner.x), low.1.min(corner.y)));
+        let high =
+            corners.iter().fold((i32::MIN, i32::MIN), |high, corner| (high.0.max(corner.x), high.1.max(corner.y)));
+        let (across, down) = (high.0 - low.0, high.1 - low.1);
+        // A quad that still touches all cells between its corners covers no hole.
+        if across < 2 && down < 2 || across > LARGEST || down > LARGEST {
+            return 0;
+        }
+        let grid = *self.map.grid();
+        let (left, right) = (low.0.max(0), high.0.min(grid.width() as i32 - 1));
+        let (mut changed, mut key) = (0, None);
+        for y in low.1..=high.1 {
+            let Some(row) = grid.row(y) else { continue };
+            if left > right || !self.map.any_just_unobscured(row + left as u32, (right - left + 1) as u32) {
+                continue;
+            }
+            let key = *key.get_or_insert_with(|| self.key(&corners));
+            for x in left..=right {
+                changed += self.deepen(row + x as u32, (x, y), key, &corners);
+            }
+        }
+        changed
+    }
+
+    /// What is seen of a stretched quad: the farthest depth of its corners after the step.
+    #[inline(never)]
+    fn key(&self, corners: &[Corner; 4]) -> u32 {
+        let record = self.before.record();
+        let farthest = corners.iter().fold(0, |farthest, corner| {
+            let mut words = self.before.words_at(corner.cell).unwrap_or_default();
+            advance::<L, true>(record, &self.thresholds, &mut words);
+            record.depth().unsigned(&words).max(farthest)
+        });
+        partitioned(farthest, true, record.depth().bits.into())
+    }
+
+    /// Gives a hole the depth of a quad that covers it, if that is what is seen: 1 if so.
+    #[inline(always)]
+    fn deepen(&mut self, cell: u32, (x, y): (i32, i32), key: u32, corners: &[Corner; 4]) -> u32 {
+        let record = *self.map.record();
+        let bits = u32::from(record.depth().bits);
+        let own = self.map.key_at(cell).unwrap_or_default();
+        // Of a known surface nothing farther is seen: its key is in the nearer half.
+        let hole = own >> bits == Class::JustUnobscured as u32;
+        let seen = key < partitioned(own & ((1 << bits) - 1), hole, bits);
+        if !hole || !seen || !covers(corners, x, y) {
+            return 0;
+        }
+        let Some(mut words) = self.map.words_at(cell) else { return 0 };
+        record.depth().set(&mut words, unpartitioned(key, bits).0);
+        self.map.put(cell, &words);
+        1
+    }
 }
 
 /// Whether a place lies in the convex hull of four corners, its border included: in one of the four triangles that they form.
@@ -232,7 +259,7 @@ mod tests {
 
     #[test]
     fn a_hull_covers_its_corners_and_what_lies_between_them() {
-        let at = |x, y| Corner { x, y, depth: 0 };
+        let at = |x, y| Corner { cell: 0, x, y };
         let quad = [at(0, 0), at(0, 1), at(5, 0), at(5, 1)];
         for x in -1..=6 {
             for y in -1..=2 {

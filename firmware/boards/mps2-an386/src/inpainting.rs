@@ -71,7 +71,6 @@ impl Bench {
             let mut map = Galpixmap::<L, _>::over(*grid, budget, back).expect("memory enough");
             let bits = map.record().depth().bits.into();
             let (settings, rule) = (Settings::for_depth(bits), Inpainting::for_depth(bits, Gamma::Zero).rule);
-            let rounding = black_box(settings.rounding);
             if let Some(frame) = frame {
                 let (rounding, frame) = (black_box(settings.rounding), black_box(frame));
                 counts.quads += clock.time(|| lay_background(&front, &mut map, scratch.edges, rounding, frame)).0;

@@ -1,0 +1,188 @@
+//! What the metameric rung takes means of: luma, chroma, and the motion that goes with them.
+
+use super::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
+use super::mean::signed;
+use super::metamer::Scene;
+use super::push_pull::{Picture, Value};
+use super::steerable::{COLUMNS, LARGEST};
+use super::tile::Row;
+use super::ycbcr;
+use crate::colour::Colour;
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::record::Words;
+
+/// Luma and chroma, and the cell whose motion goes with them, see [`super::paint::Moving`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Tone {
+    /// As [`ycbcr::of_rgb`] has them.
+    pub channels: [i16; 3],
+    /// The cell of the picture.
+    pub source: u32,
+}
+
+impl Tone {
+    /// The same with something added to each channel, in quarters; no channel leaves the range of a colour's.
+    #[inline(always)]
+    #[must_use]
+    pub fn detailed(self, detail: [i32; 3]) -> Self {
+        let mut channels = [0; 3];
+        for ((to, from), more) in channels.iter_mut().zip(self.channels).zip(detail) {
+            *to = (i32::from(from) + more).clamp(-i32::from(LARGEST), i32::from(LARGEST)) as i16;
+        }
+        Self { channels, ..self }
+    }
+}
+
+impl Value for Tone {
+    #[inline(always)]
+    fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
+        let (mut source, mut most) = (0, 0);
+        for (value, &weight) in values.iter().zip(weights) {
+            if weight > most {
+                (source, most) = (value.source, weight);
+            }
+        }
+        let mut channels = [0; 3];
+        for (channel, to) in channels.iter_mut().enumerate() {
+            *to = signed(values.map(|value| i32::from(value.channels[channel])), weights, tie) as i16;
+        }
+        Self { channels, source }
+    }
+
+    #[inline(always)]
+    fn plain_mean([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+        let mut mean = *a;
+        for (channel, to) in mean.channels.iter_mut().enumerate() {
+            let sum = a.channels[channel] + b.channels[channel] + c.channels[channel] + d.channels[channel];
+            *to = (sum + 1 + tie as i16) >> 2;
+        }
+        mean
+    }
+
+    #[inline(always)]
+    fn linear([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
+        let mut mean = *a;
+        for (channel, to) in mean.channels.iter_mut().enumerate() {
+            let [a, b, c, d] = [a.channels[channel], b.channels[channel], c.channels[channel], d.channels[channel]];
+            *to = (9 * a + 3 * (b + c) + d + 7 + tie as i16) >> 4;
+        }
+        mean
+    }
+}
+
+/// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
+impl<L: Layout> OfGalpixel<L> for Tone {
+    #[inline(always)]
+    fn of(colour: u32, cell: u32) -> Self {
+        Self { channels: ycbcr::of_rgb(L::Colour::to_rgb888(colour)), source: cell }
+    }
+
+    #[inline(always)]
+    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
+        let mut moving = moving_as(map, self.source, words);
+        map.record().colour().set(&mut moving, stored::<L::Colour>(ycbcr::to_rgb(self.channels.map(i32::from))));
+        moving
+    }
+}
+
+/// The stored colour nearest to one of 8 bits a channel.
+#[inline(always)]
+fn stored<C: Colour>(rgb: [u8; 3]) -> u32 {
+    let exact = C::from_rgb888(rgb);
+    let wide = C::to_rgb888(exact);
+    // What the low bits of the stored form say is a channel's high ones again: half a step on, a channel that is at
+    // least half a step farther than that gets the next one.
+    let mut rounded = [0; 3];
+    for ((to, &level), &below) in rounded.iter_mut().zip(&rgb).zip(&wide) {
+        let over = i32::from(level) - i32::from(below);
+        *to = (i32::from(level) + over.max(0)).min(255) as u8;
+    }
+    C::from_rgb888(rounded)
+}
+
+impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
+    fn holes(&self, mut hole: impl FnMut(u32, u32)) {
+        let grid = *self.map.grid();
+        for (y, &row) in (0..).zip(grid.starts()) {
+            let mut x = 0;
+            while x < grid.width() {
+                let run = (grid.width() - x).min(super::map::LOOK);
+                if self.map.any_just_unobscured(row + x, run) {
+                    for x in x..x + run {
+                        if self.map.class(row + x) == Class::JustUnobscured && self.is_asked_for(row + x) {
+                            hole(x, y);
+                        }
+                    }
+                }
+                x += run;
+            }
+        }
+    }
+
+    #[inline]
+    fn row(&self, left: u32, y: u32, cells: &mut Row) {
+        let Some(row) = self.map.grid().row(y as i32) else { return };
+        let count = ((self.map.grid().width() - left) as usize).min(COLUMNS);
+        let (first, bits) = ((row + left) as usize, u32::from(self.map.record().depth().bits));
+        let (mut keys, mut colours) = ([0; COLUMNS], [0; COLUMNS]);
+        for (to, key) in keys.iter_mut().zip(self.map.keys(first..first + count)) {
+            *to = key;
+        }
+        for (to, colour) in colours.iter_mut().zip(self.map.colours(first..first + count)) {
+            *to = colour;
+        }
+        for x in 0..COLUMNS {
+            let depth = pyramid_depth(keys[x] & ((1 << bits) - 1), bits);
+            let class = keys[x] >> bits;
+            cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
+            cells.known[x] = -((class == Class::Galpixel as u32) as i32);
+            let [luma, blue, red] = ycbcr::of_rgb(L::Colour::to_rgb888(colours[x]));
+            cells.channels[0][x] = luma;
+            cells.channels[1][x] = blue;
+            cells.channels[2][x] = red;
+        }
+    }
+
+    #[inline]
+    fn depth(&self, x: u32, y: u32) -> u32 {
+        let bits = u32::from(self.map.record().depth().bits);
+        let key = self.map.grid().cell(x as i32, y as i32).and_then(|cell| self.map.key_at(cell));
+        key.map_or(0, |key| pyramid_depth(key & ((1 << bits) - 1), bits))
+    }
+
+    #[inline]
+    fn source(&self, x: u32, y: u32) -> u32 {
+        self.map.grid().cell(x as i32, y as i32).unwrap_or_default()
+    }
+
+    fn displacement(&self, source: u32, age: u32) -> [i32; 2] {
+        if !L::LANES.velocity {
+            return [0; 2];
+        }
+        let Some(words) = self.map.words_at(source) else { return [0; 2] };
+        let (record, age) = (self.map.record(), i64::from(age.min(0xffff)));
+        [0, 1].map(|component| {
+            let scale = &record.scales[component];
+            let v = i64::from(record.velocity(component).signed(&words));
+            let a = i64::from(record.acceleration(component).signed(&words)) << scale.acceleration_up;
+            let twice = 2 * v * age - a * age * age;
+            ((twice + (1 << scale.velocity_frac)) >> (scale.velocity_frac + 1)) as i32
+        })
+    }
+
+    fn put(&mut self, x: u32, y: u32, tone: Tone) {
+        let Some(cell) = self.map.grid().cell(x as i32, y as i32) else { return };
+        let words = self.map.words_at(cell).unwrap_or_default();
+        let words = OfGalpixel::<L>::put_into(tone, self.map, words);
+        self.map.put(cell, &words);
+    }
+}
+
+/// Says that a scene is a picture of tones.
+const _: fn() = || {
+    const fn is_picture<P: Picture<Value = Tone>>() {}
+    is_picture::<Uncovered<'static, 'static, crate::layout::Full, crate::galpixel::Chosen<crate::layout::Full>, Tone>>(
+    );
+};
