@@ -16,8 +16,9 @@
 //! Between places, mean and deviation are interpolated as such: the last linear sample takes them, and the moments go as
 //! far as the level above.
 
+use super::below::Below;
 use super::demand::{Demand, sample};
-use super::features::{Below, Responses, Workspace};
+use super::features::{Responses, Workspace};
 use super::levels::{Levels, cells};
 use super::mean::tie;
 use super::needs::{self, Needs};
