@@ -108,7 +108,7 @@ const UP: [[i16; QUADS]; 2] = {
     let mut up = [[0; QUADS]; 2];
     let mut at = 0;
     while at < QUADS {
-        let odd = (at % HALF ^ at / HALF) & 1;
+        let odd = ((at % HALF) ^ (at / HALF)) & 1;
         up[0][at] = 1 + odd as i16;
         up[1][at] = 2 - odd as i16;
         at += 1;

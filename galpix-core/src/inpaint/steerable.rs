@@ -86,12 +86,13 @@ const fn rounded(sum: i16, bits: u32) -> i16 {
 #[inline]
 pub fn bands(cells: &Cells, bands: &mut Bands) {
     const LONG: usize = TILE * COLUMNS;
-    let rows = |from: usize| cells.as_flattened().get(from * COLUMNS..).unwrap_or_default();
+    let rows = |from: usize| cells.as_flattened().get(from * COLUMNS..).and_then(|rows| rows.first_chunk::<LONG>());
+    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = [rows(0), rows(1), rows(2), rows(3), rows(4)] else { return };
     let (mut smooth, mut sharp) = ([0; LONG], [0; LONG]);
-    let columns = rows(0).iter().zip(rows(1)).zip(rows(2)).zip(rows(3)).zip(rows(4));
-    for ((smooth, sharp), ((((&a, &b), &c), &d), &e)) in smooth.iter_mut().zip(&mut sharp).zip(columns) {
-        *smooth = rounded(smoothed([a, b, c, d, e]), FIRST);
-        *sharp = rounded(sharpened([a, b, c, d, e]), FIRST);
+    for x in 0..LONG {
+        let column = [a[x], b[x], c[x], d[x], e[x]];
+        smooth[x] = rounded(smoothed(column), FIRST);
+        sharp[x] = rounded(sharpened(column), FIRST);
     }
     let (mut across, mut down) = ([0; LONG], [0; LONG]);
     for x in 0..LONG - 2 * APRON {
