@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The picture is what a step makes of the scene of the benches: `all` are all its holes, `slivers` those that are left when
-//! bullet holes are filled. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the columns mean is said in
+//! bullet holes are filled; `map` are these in a galpixmap, with the motion of what is filled. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the columns mean is said in
 //! `benches/common/race.rs`.
 
 #[path = "../benches/common/mod.rs"]
@@ -19,14 +19,19 @@ use std::rc::Rc;
 
 use common::holes::{Holes, picture};
 use common::race::{Contender, arguments, race, table};
+use common::scene::{Motion, samples};
 use common::textbook::{Pixel, Textbook};
+use common::{Maps, Panel};
 use galpix_core::colour::Rgb888;
+use galpix_core::frame::{Controller, Inpainting};
+use galpix_core::galpixel::Static;
 use galpix_core::inpaint::levels;
-use galpix_core::inpaint::paint::Tint;
+use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::picture::Masked;
 use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
 use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
 use galpix_core::inpaint::validity::Gamma;
+use galpix_core::layout::Full;
 
 /// What others are compared with.
 const TEXTBOOK: &str = "textbook f32, dense";
@@ -73,6 +78,7 @@ fn compare((width, height): (u32, u32), rounds: usize) {
             }
         }
     }
+    contenders.extend(on_a_map((width, height)));
     race(&mut contenders, cells, rounds);
     table(&contenders, cells, TEXTBOOK);
 }
@@ -100,6 +106,37 @@ fn ours(
         black_box(fill(&mut masked, &mut pyramid, &rule));
     };
     Contender::new(what, group, bytes, Box::new(|| {}), Box::new(run))
+}
+
+/// The stage as a controller has it: the holes of a galpixmap, with motion, and the depth of the background before.
+fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
+    let maps = Maps::<Full, _>::new(width, height, Static::<Panel>::new(), &samples(width, height, Motion::Scene));
+    let settings = maps.settings;
+    let mut controller = Controller::new(maps.front, maps.back, maps.scratch).expect("maps that belong together");
+    controller.step(&settings);
+    let controller = Rc::new(RefCell::new(controller));
+    let depth_bits = u32::from(controller.borrow().front().record().depth().bits);
+    let bytes = COPIED * (width * height) as usize;
+    let aware = |gamma| Inpainting::for_depth(depth_bits, gamma);
+    [
+        ("classic", Inpainting::classic()),
+        ("depth-aware, gamma 0, without quads", Inpainting { quads: false, ..aware(Gamma::Zero) }),
+        ("depth-aware, gamma 0", aware(Gamma::Zero)),
+        ("depth-aware, gamma 1/2", aware(Gamma::Half)),
+    ]
+    .into_iter()
+    .map(|(name, inpainting)| {
+        let controller = Rc::clone(&controller);
+        let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
+        let mut states = vec![0; state_words(memory.len())];
+        // What is uncovered stays so: the stage can be repeated.
+        let run = move || {
+            let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).expect("memory enough");
+            black_box(controller.borrow_mut().inpaint(&settings, &inpainting, &mut pyramid));
+        };
+        Contender::new(name, "map", bytes, Box::new(|| {}), Box::new(run))
+    })
+    .collect()
 }
 
 fn textbook(picture: &Rc<common::holes::Picture>, group: &str, (width, height): (u32, u32)) -> Contender {

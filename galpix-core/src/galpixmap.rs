@@ -193,16 +193,6 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         })
     }
 
-    /// The stored colours of some cells; nothing if they are not all in the map.
-    #[inline(always)]
-    pub(crate) fn colours(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
-        let field = self.record().colour();
-        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
-        let (word, spill_word) = field.words();
-        let extract = field.extract();
-        plane(word).iter().zip(plane(spill_word)).map(move |(&word, &spill)| extract.unsigned(word, spill))
-    }
-
     /// Whether some cells are all empty.
     #[inline(always)]
     pub(crate) fn all_empty(&self, cells: Range<usize>) -> bool {
@@ -253,7 +243,16 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
     #[inline(always)]
     #[must_use]
     pub fn colour(&self, cell: u32) -> u32 {
-        self.words_at(cell).map_or(0, |words| self.record().colour().unsigned(&words))
+        self.colours(cell as usize..cell as usize + 1).next().unwrap_or_default()
+    }
+
+    /// The colour words of some cells; nothing if they are not all in the map.
+    #[inline(always)]
+    pub(crate) fn colours(&self, cells: Range<usize>) -> impl ExactSizeIterator<Item = u32> {
+        let field = self.record().colour();
+        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
+        let ((upper, lower), extract) = (field.words(), field.extract());
+        plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.unsigned(upper, lower))
     }
 
     /// The colour at column `x`, row `y` as 8-bit red, green and blue.

@@ -94,6 +94,19 @@ pub(crate) fn advance<L: Layout, const CLAMP: bool>(record: &Record, thresholds:
     step
 }
 
+/// The cells that a galpixel moves in a step, along the row and along the column, and nothing else of it.
+#[inline(always)]
+pub(crate) fn cells_moved<L: Layout>(record: &Record, thresholds: &[i32; 3], words: &Words) -> [i32; 2] {
+    [0, 1].map(|component| {
+        if !L::LANES.velocity {
+            return 0;
+        }
+        let scale = &record.scales[component];
+        let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
+        snap(scale, step_position(scale, thresholds[component], record.offset(component).signed(words), v, a))
+    })
+}
+
 /// A step in x (0) or y (1): the cells moved, and by which bits the velocity strayed.
 #[inline(always)]
 fn step_plane<L: Layout, const CLAMP: bool>(

@@ -47,8 +47,10 @@ pub struct Maps<L: 'static, B: 'static> {
     pub front: Galpixmap<'static, L, B>,
     /// The map that is made from it.
     pub back: Galpixmap<'static, L, B>,
-    scratch: Scratch<'static>,
-    settings: Settings,
+    /// Winner map and edge map.
+    pub scratch: Scratch<'static>,
+    /// How a step is made.
+    pub settings: Settings,
     line: Vec<u32>,
 }
 

@@ -17,8 +17,8 @@ pub(super) const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel<L: Layout>: Value {
-    /// What a cell with these words holds.
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self;
+    /// What a cell of this colour holds.
+    fn of(colour: u32, cell: u32) -> Self;
 
     /// The words of a hole that held `words` and gets this.
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words;
@@ -27,8 +27,8 @@ pub trait OfGalpixel<L: Layout>: Value {
 /// The colour alone: the motion stays the one that the fill ladder gave.
 impl<L: Layout> OfGalpixel<L> for Tint {
     #[inline(always)]
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        Self::of::<L::Colour>(map.colour(cell))
+    fn of(colour: u32, _: u32) -> Self {
+        Self::of::<L::Colour>(colour)
     }
 
     #[inline(always)]
@@ -41,19 +41,25 @@ impl<L: Layout> OfGalpixel<L> for Tint {
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl<L: Layout> OfGalpixel<L> for Moving {
     #[inline(always)]
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        Self { tint: OfGalpixel::<L>::of(map, cell), source: cell }
+    fn of(colour: u32, cell: u32) -> Self {
+        Self { tint: Tint::of::<L::Colour>(colour), source: cell }
     }
 
     #[inline(always)]
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
-        let record = map.record();
-        let mut moving = map.words_at(self.source).unwrap_or(words);
-        for field in [record.class(), record.depth()] {
-            field.set(&mut moving, field.unsigned(&words));
-        }
-        OfGalpixel::<L>::put_into(self.tint, map, moving)
+        OfGalpixel::<L>::put_into(self.tint, map, moving_as(map, self.source, words))
     }
+}
+
+/// The words of a galpixel with class and depth of the hole that held `words`.
+#[inline(always)]
+pub(super) fn moving_as<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, source: u32, words: Words) -> Words {
+    let record = map.record();
+    let mut moving = map.words_at(source).unwrap_or(words);
+    for field in [record.class(), record.depth()] {
+        field.set(&mut moving, field.unsigned(&words));
+    }
+    moving
 }
 
 /// A galpixmap whose cells of class just unobscured are its holes.
@@ -103,7 +109,7 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
         if class == Class::Galpixel as u32 {
-            Known { validity: FULL, depth, value: V::of(self.map, cell) }
+            Known { validity: FULL, depth, value: V::of(self.map.colour(cell), cell) }
         } else {
             Known { validity: 0, depth, value: V::default() }
         }
@@ -142,10 +148,18 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         if all >> bits != 0 || uneven != 0 {
             return None;
         }
-        for (i, (_, value)) in (0..).zip(run.iter_mut()) {
-            let four =
-                [upper + 2 * i, upper + 2 * i + 1, lower + 2 * i, lower + 2 * i + 1].map(|cell| V::of(self.map, cell));
-            *value = V::plain_mean(&four, tie(x + i, y, 1));
+        let values = |cell: u32| {
+            let mut values = [V::default(); CELLS];
+            let colours = self.map.colours(cell as usize..cell as usize + CELLS);
+            for ((value, colour), cell) in values.iter_mut().zip(colours).zip(cell..) {
+                *value = V::of(colour, cell);
+            }
+            values
+        };
+        let (upper, lower) = (values(upper), values(lower));
+        for (i, (_, value)) in run.iter_mut().enumerate() {
+            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]];
+            *value = V::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)
     }

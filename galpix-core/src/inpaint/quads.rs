@@ -9,11 +9,10 @@
 //! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is a bullet
 //! hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
 
-use crate::edge::on_edge;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::propagate::{advance, thresholds};
+use crate::propagate::{advance, cells_moved, thresholds};
 use crate::rounding::Rounding;
 
 /// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
@@ -35,16 +34,23 @@ pub const fn unpartitioned(key: u32, bits: u32) -> (u32, bool) {
     if key >> bits == 0 { (key, false) } else { ((2 << bits) - 1 - key, true) }
 }
 
-/// A corner of a quad after the step.
+/// A corner of a quad: the cell that it was, and the place where it is after the step.
 #[derive(Clone, Copy)]
 struct Corner {
+    cell: u32,
     x: i32,
     y: i32,
-    depth: u32,
+}
+
+/// Two maps, one before the other.
+struct Step<'s, 'p, 'q, L, B> {
+    before: &'s Galpixmap<'p, L, B>,
+    map: &'s mut Galpixmap<'q, L, B>,
+    thresholds: [i32; 3],
 }
 
 /// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
-/// that the ladder gave them is farther: of how many it changed the depth.
+/// that the ladder gave them is farther: how often it made one deeper.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
 pub fn lay_background<L: Layout, B: Budget<L>>(
@@ -58,87 +64,127 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
         return 0;
     }
     let thresholds = thresholds(before.record(), rounding, frame);
-    let (width, height) = (before.grid().width(), before.grid().height());
+    let (width, starts) = (before.grid().width(), before.grid().starts());
+    let mut step = Step { before, map, thresholds };
     let mut changed = 0;
-    for y in 0..height.saturating_sub(1) as i32 {
-        let (Some(row), Some(next)) = (before.grid().row(y), before.grid().row(y + 1)) else { continue };
-        let mut right: Option<[Option<Corner>; 2]> = None;
-        for x in 1..width {
-            let edge = [row + x - 1, row + x, next + x - 1, next + x].iter().any(|&cell| on_edge(edges, cell));
-            if !edge {
-                right = None;
+    for (y, (&row, &next)) in (0..).zip(starts.iter().zip(starts.iter().skip(1))) {
+        let mut x = 0;
+        while x + 1 < width {
+            let run = (width - 1 - x).min(RUN);
+            // Bit i: a corner in column x + i is on an edge.
+            let columns = bits(edges, row + x) | bits(edges, next + x);
+            let quads = (columns | columns >> 1) & ((1 << run) - 1);
+            if quads != 0 {
+                changed += step.draw_run(quads as u32, x, y, row, next);
+            }
+            x += run;
+        }
+    }
+    changed
+}
+
+/// Quads that are looked at once.
+const RUN: u32 = 32;
+
+/// The edge bits of 33 cells from `cell` on, and more.
+#[inline(always)]
+fn bits(edges: &[u32], cell: u32) -> u64 {
+    let word = |word: u32| u64::from(edges.get(word as usize).copied().unwrap_or(u32::MAX));
+    let at = cell / u32::BITS;
+    (word(at) | word(at + 1) << u32::BITS) >> (cell % u32::BITS)
+}
+
+impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
+    /// Draws the quads right of column `x + i` for all set bits `i`.
+    #[inline(never)]
+    fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, row: u32, next: u32) -> u32 {
+        let mut changed = 0;
+        let mut known: Option<(u32, [Option<Corner>; 2])> = None;
+        while quads != 0 {
+            let left = x + quads.trailing_zeros();
+            quads &= quads - 1;
+            let column = |x: u32| [self.corner(row + x, x, y), self.corner(next + x, x, y + 1)];
+            let lefts = match known {
+                Some((x, corners)) if x == left => corners,
+                _ => column(left),
+            };
+            let rights = column(left + 1);
+            known = Some((left + 1, rights));
+            if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (lefts, rights) {
+                changed += self.draw([a, b, c, d]);
+            }
+        }
+        changed
+    }
+
+    /// A cell of the map before as a corner; none if it is empty.
+    #[inline(always)]
+    fn corner(&self, cell: u32, x: u32, y: i32) -> Option<Corner> {
+        let words = self.before.words_at(cell)?;
+        let record = self.before.record();
+        if record.class().unsigned(&words) == Class::Empty as u32 {
+            return None;
+        }
+        let [dx, dy] = cells_moved::<L>(record, &self.thresholds, &words);
+        Some(Corner { cell, x: x as i32 + dx, y: y + dy })
+    }
+
+    /// Draws a quad into the holes under it, if it is stretched.
+    #[inline(always)]
+    fn draw(&mut self, corners: [Corner; 4]) -> u32 {
+        let low = corners.iter().fold((i32::MAX, i32::MAX), |low, corner| (low.0.min(corner.x), low.1.min(corner.y)));
+        let high =
+            corners.iter().fold((i32::MIN, i32::MIN), |high, corner| (high.0.max(corner.x), high.1.max(corner.y)));
+        let (across, down) = (high.0 - low.0, high.1 - low.1);
+        // A quad that still touches all cells between its corners covers no hole.
+        if across < 2 && down < 2 || across > LARGEST || down > LARGEST {
+            return 0;
+        }
+        let grid = *self.map.grid();
+        let (left, right) = (low.0.max(0), high.0.min(grid.width() as i32 - 1));
+        let (mut changed, mut key) = (0, None);
+        for y in low.1..=high.1 {
+            let Some(row) = grid.row(y) else { continue };
+            if left > right || !self.map.any_just_unobscured(row + left as u32, (right - left + 1) as u32) {
                 continue;
             }
-            let column =
-                |x: u32| [corner(before, row + x, x, y, &thresholds), corner(before, next + x, x, y + 1, &thresholds)];
-            let left = right.unwrap_or_else(|| column(x - 1));
-            let new = column(x);
-            right = Some(new);
-            if let ([Some(a), Some(b)], [Some(c), Some(d)]) = (left, new) {
-                changed += draw([a, b, c, d], map);
+            let key = *key.get_or_insert_with(|| self.key(&corners));
+            for x in left..=right {
+                changed += self.deepen(row + x as u32, (x, y), key, &corners);
             }
         }
+        changed
     }
-    changed
-}
 
-/// A cell of the map before as a corner; none if it is empty.
-#[inline(always)]
-fn corner<L: Layout, B: Budget<L>>(
-    before: &Galpixmap<'_, L, B>,
-    cell: u32,
-    x: u32,
-    y: i32,
-    thresholds: &[i32; 3],
-) -> Option<Corner> {
-    let mut words = before.words_at(cell)?;
-    let record = before.record();
-    if record.class().unsigned(&words) == Class::Empty as u32 {
-        return None;
+    /// What is seen of a stretched quad: the farthest depth of its corners after the step.
+    #[inline(never)]
+    fn key(&self, corners: &[Corner; 4]) -> u32 {
+        let record = self.before.record();
+        let farthest = corners.iter().fold(0, |farthest, corner| {
+            let mut words = self.before.words_at(corner.cell).unwrap_or_default();
+            advance::<L, true>(record, &self.thresholds, &mut words);
+            record.depth().unsigned(&words).max(farthest)
+        });
+        partitioned(farthest, true, record.depth().bits.into())
     }
-    let step = advance::<L, true>(record, thresholds, &mut words);
-    Some(Corner { x: x as i32 + step.dx, y: y + step.dy, depth: record.depth().unsigned(&words) })
-}
 
-/// Draws a quad into the holes under it, if it is stretched.
-#[inline(always)]
-fn draw<L: Layout, B: Budget<L>>(corners: [Corner; 4], map: &mut Galpixmap<'_, L, B>) -> u32 {
-    let low = corners.iter().fold((i32::MAX, i32::MAX), |low, corner| (low.0.min(corner.x), low.1.min(corner.y)));
-    let high = corners.iter().fold((i32::MIN, i32::MIN), |high, corner| (high.0.max(corner.x), high.1.max(corner.y)));
-    let (across, down) = (high.0 - low.0, high.1 - low.1);
-    // A quad that still touches all cells between its corners covers no hole.
-    if across < 2 && down < 2 || across > LARGEST || down > LARGEST {
-        return 0;
-    }
-    let depth = corners.iter().fold(0, |farthest, corner| farthest.max(corner.depth));
-    draw_holes(&corners, (low, high), depth, map)
-}
-
-#[inline(never)]
-fn draw_holes<L: Layout, B: Budget<L>>(
-    corners: &[Corner; 4],
-    (low, high): ((i32, i32), (i32, i32)),
-    depth: u32,
-    map: &mut Galpixmap<'_, L, B>,
-) -> u32 {
-    let bits = u32::from(map.record().depth().bits);
-    let key = partitioned(depth, true, bits);
-    let mut changed = 0;
-    for y in low.1..=high.1 {
-        for x in low.0..=high.0 {
-            let Some(cell) = map.grid().cell(x, y) else { continue };
-            let Some(mut words) = map.words_at(cell) else { continue };
-            let record = *map.record();
-            let hole = record.class().unsigned(&words) == Class::JustUnobscured as u32;
-            // Of a known surface nothing farther is seen: its key is in the nearer half.
-            if key < partitioned(record.depth().unsigned(&words), hole, bits) && covers(corners, x, y) {
-                record.depth().set(&mut words, unpartitioned(key, bits).0);
-                map.put(cell, &words);
-                changed += 1;
-            }
+    /// Gives a hole the depth of a quad that covers it, if that is what is seen: 1 if so.
+    #[inline(always)]
+    fn deepen(&mut self, cell: u32, (x, y): (i32, i32), key: u32, corners: &[Corner; 4]) -> u32 {
+        let record = *self.map.record();
+        let bits = u32::from(record.depth().bits);
+        let own = self.map.key_at(cell).unwrap_or_default();
+        // Of a known surface nothing farther is seen: its key is in the nearer half.
+        let hole = own >> bits == Class::JustUnobscured as u32;
+        let seen = key < partitioned(own & ((1 << bits) - 1), hole, bits);
+        if !hole || !seen || !covers(corners, x, y) {
+            return 0;
         }
+        let Some(mut words) = self.map.words_at(cell) else { return 0 };
+        record.depth().set(&mut words, unpartitioned(key, bits).0);
+        self.map.put(cell, &words);
+        1
     }
-    changed
 }
 
 /// Whether a place lies in the convex hull of four corners, its border included: in one of the four triangles that they form.
@@ -185,7 +231,7 @@ mod tests {
 
     #[test]
     fn a_hull_covers_its_corners_and_what_lies_between_them() {
-        let at = |x, y| Corner { x, y, depth: 0 };
+        let at = |x, y| Corner { cell: 0, x, y };
         let quad = [at(0, 0), at(0, 1), at(5, 0), at(5, 1)];
         for x in -1..=6 {
             for y in -1..=2 {

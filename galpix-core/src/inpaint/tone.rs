@@ -1,6 +1,6 @@
 //! What the metameric rung takes means of: luma, chroma, and the motion that goes with them.
 
-use super::map::{OfGalpixel, Uncovered, pyramid_depth};
+use super::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use super::mean::signed;
 use super::metamer::Scene;
 use super::push_pull::{Picture, Value};
@@ -75,18 +75,14 @@ impl Value for Tone {
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl<L: Layout> OfGalpixel<L> for Tone {
     #[inline(always)]
-    fn of<B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        Self { channels: ycbcr::of_rgb(L::Colour::to_rgb888(map.colour(cell))), source: cell }
+    fn of(colour: u32, cell: u32) -> Self {
+        Self { channels: ycbcr::of_rgb(L::Colour::to_rgb888(colour)), source: cell }
     }
 
     #[inline(always)]
     fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
-        let record = map.record();
-        let mut moving = map.words_at(self.source).unwrap_or(words);
-        for field in [record.class(), record.depth()] {
-            field.set(&mut moving, field.unsigned(&words));
-        }
-        record.colour().set(&mut moving, stored::<L::Colour>(ycbcr::to_rgb(self.channels.map(i32::from))));
+        let mut moving = moving_as(map, self.source, words);
+        map.record().colour().set(&mut moving, stored::<L::Colour>(ycbcr::to_rgb(self.channels.map(i32::from))));
         moving
     }
 }

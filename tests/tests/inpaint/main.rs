@@ -311,3 +311,31 @@ fn memory_that_does_not_fit_is_refused() {
     assert_eq!(levels::cells(320, 240) * size_of::<Cell<Tint>>(), 204_872);
     assert_eq!(levels::cells(1024, 1024) * size_of::<Cell<Tint>>(), 2_796_200);
 }
+
+/// The tables of docs/inpainting.md.
+#[test]
+fn memory_is_what_the_documents_say() {
+    let sizes = [(128, 64), (320, 240), (1024, 1024)];
+    let line = |what: &str, cell: usize| {
+        let bytes = sizes.map(|(width, height)| {
+            let cells = levels::cells(width, height);
+            thousands(cells * cell + 4 * state_words(cells))
+        });
+        format!("| {what} | {} |", bytes.join(" | "))
+    };
+    let table = [
+        line("push-pull of colours", size_of::<Cell<Tint>>()),
+        line("push-pull with motion", size_of::<Cell<galpix_core::inpaint::paint::Moving>>()),
+    ];
+    println!("{}", table.join("\n"));
+    let documents = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/inpainting.md")).unwrap();
+    assert!(table.iter().all(|line| documents.contains(line)), "docs/inpainting.md needs\n{}", table.join("\n"));
+}
+
+/// A number with its digits in threes.
+fn thousands(number: usize) -> String {
+    let digits = number.to_string();
+    let threes: Vec<&str> =
+        digits.as_bytes().rchunks(3).rev().map(|three| std::str::from_utf8(three).unwrap()).collect();
+    threes.join(" ")
+}
