@@ -4,6 +4,7 @@
 //! it; an [`experiment`] compares each frame with the truth and with sample-and-hold; [`metric`], [`film`] and `report`
 //! turn that into numbers, moving pictures and a page.
 
+pub mod area;
 pub mod capture;
 pub mod certificate;
 pub mod cli;
