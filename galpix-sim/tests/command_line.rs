@@ -7,8 +7,8 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const SCENES: [&str; 10] =
-    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball"];
+const SCENES: [&str; 11] =
+    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball", "fovea"];
 
 fn galpix(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
@@ -164,7 +164,7 @@ fn a_budget_that_cannot_exist_is_refused_with_a_remedy() {
 }
 
 #[test]
-fn scenes_lists_all_ten() {
+fn scenes_lists_all_eleven() {
     let folder = folder();
     let text = done(folder.path(), &["scenes"]);
     let names: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
