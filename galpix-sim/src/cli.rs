@@ -1,6 +1,7 @@
 //! The command line. Results go to standard output, progress and messages to standard error.
 
 mod budget;
+mod call;
 mod choices;
 mod demo;
 mod error;

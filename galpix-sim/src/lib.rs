@@ -11,6 +11,7 @@ pub mod cli;
 pub mod engine;
 pub mod experiment;
 pub mod figure;
+pub mod fill;
 pub mod film;
 pub mod fit;
 pub mod metric;
