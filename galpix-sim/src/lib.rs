@@ -12,6 +12,7 @@ pub mod engine;
 pub mod experiment;
 pub mod figure;
 pub mod fill;
+pub mod fills;
 pub mod film;
 pub mod fit;
 pub mod metric;
