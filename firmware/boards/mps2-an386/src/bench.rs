@@ -80,7 +80,7 @@ impl Bench {
         self.maps[0][..words].copy_from_slice(&self.painted[..words]);
         for frame in 0..FRAMES {
             self.frame::<L, P>(frame, words, &mut ticks);
-            self.inpaint::<L, P>(frame, words, &mut inpainted);
+            self.inpaint::<L, P>(Some(frame), words, &mut inpainted);
             self.maps.swap(0, 1);
         }
         let row = Row { layout, picture: picture.name(), mode: Work::Skipping.name(), stage: "", rung: "-" };

@@ -58,8 +58,8 @@ fn filled<L: Layout, B: Budget<L>, V: OfGalpixel<L>>(
 }
 
 impl Bench {
-    /// Inpaints the second map, which is the frame after the first one, and leaves it as it was.
-    pub fn inpaint<L: Layout, P: Profile>(&mut self, frame: u32, words: usize, counts: &mut Counts)
+    /// Inpaints the second map and leaves it as it was: with quads, if it is the frame after the first one.
+    pub fn inpaint<L: Layout, P: Profile>(&mut self, frame: Option<u32>, words: usize, counts: &mut Counts)
     where
         Static<P>: Fixed<L>,
     {
@@ -71,9 +71,10 @@ impl Bench {
             let mut map = Galpixmap::<L, _>::over(*grid, budget, back).expect("memory enough");
             let bits = map.record().depth().bits.into();
             let (settings, rule) = (Settings::for_depth(bits), Inpainting::for_depth(bits, Gamma::Zero).rule);
-            let rounding = black_box(settings.rounding);
-            counts.quads +=
-                clock.time(|| lay_background(&front, &mut map, scratch.edges, rounding, black_box(frame))).0;
+            if let Some(frame) = frame {
+                let (rounding, frame) = (black_box(settings.rounding), black_box(frame));
+                counts.quads += clock.time(|| lay_background(&front, &mut map, scratch.edges, rounding, frame)).0;
+            }
             let Pyramids { tints, moving, states } = pyramids;
             // What is put into holes is asked by nobody: each arrangement finds what the one before has found.
             let (ticks, _) = filled(clock, &mut map, (tints, states), &rule, Work::Skipping);
@@ -95,9 +96,8 @@ impl Bench {
     {
         let mut map = Galpixmap::<L, _>::new(self.grid, Static::<P>::new(), self.maps[1]).expect("memory enough");
         Picture::Torn.paint(&mut map);
-        self.maps[0][..words].fill(0);
         let mut counts = Counts::default();
-        self.inpaint::<L, P>(0, words, &mut counts);
+        self.inpaint::<L, P>(None, words, &mut counts);
         let (picture, mode) = (Picture::Torn.name(), Work::Skipping.name());
         counts.print(Row { layout, picture, mode, stage: "", rung: "-" }, self.grid.cells());
     }
@@ -109,7 +109,7 @@ impl Counts {
         let Self { frames, holes, quads, moving, colours, dense } = *self;
         let all = galpixels * frames;
         print_hundredths(&Row { stage: "holes-%", ..row }, u64::from(holes) * 10_000 / u64::from(all));
-        if quads > 0 && row.picture != Picture::Torn.name() {
+        if quads > 0 {
             print(&Row { stage: "quads", ..row }, quads, all);
         }
         print(&Row { stage: "push-pull", ..row }, moving, all);

@@ -24,8 +24,7 @@ pub enum Picture {
     Flat,
     /// Every other cell by chance is empty, the others move together, for constant work.
     Holes,
-    /// The same things, each with a crescent beside it that was just uncovered, for push-pull: five of a hundred galpixels
-    /// are holes.
+    /// Nothing moves, and beside each thing a crescent was just uncovered, for push-pull.
     Torn,
 }
 
@@ -45,7 +44,7 @@ struct Thing {
 const THINGS: u32 = 12;
 
 /// Columns of a crescent.
-const CRESCENT: i32 = 8;
+const CRESCENT: i32 = 12;
 
 /// The background pans and comes nearer. As constants, for they are read from text.
 const BACKGROUND: [I32F32; 3] = [I32F32::lit("-0.8"), I32F32::lit("0.3"), I32F32::lit("-0.002")];
