@@ -1,9 +1,11 @@
 //! The command line. Results go to standard output, progress and messages to standard error.
 
 mod budget;
+mod call;
 mod choices;
 mod demo;
 mod error;
+mod fills;
 mod plan;
 mod run;
 mod scenes;
@@ -64,6 +66,8 @@ enum Command {
     Run(run::Run),
     /// Error against run time over budgets, lanes, roundings and rungs: tables, plots, the Pareto front
     Error(error::Error),
+    /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
+    Fills(fills::Fills),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -89,6 +93,7 @@ pub fn main() -> ExitCode {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
         Command::Error(error) => error.run(),
+        Command::Fills(fills) => fills.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),
@@ -138,6 +143,8 @@ fn printable(text: &str) -> String {
 fn printable_lines(text: &str) -> String {
     text.lines().map(printable).collect::<Vec<_>>().join("\n")
 }
+
+pub(crate) use run::file_name;
 
 /// Refuses a budget that cannot exist, before a folder is made for it.
 fn check(source: &Source, request: &Request) -> Result<(), CliError> {

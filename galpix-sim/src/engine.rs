@@ -15,6 +15,7 @@ use galpix_core::layout::{Lanes, Layout};
 use galpix_core::tally::Tally;
 use galpix_core::{edge, scan_out};
 
+use crate::fill::{Inpaint, Inpainter};
 use crate::picture::Picture;
 use crate::update::{Known, Sample, Update, Wings};
 
@@ -59,6 +60,7 @@ pub struct Frame<'f, L> {
 pub struct Engine<L> {
     budget: Chosen<L>,
     settings: Settings,
+    inpaint: Option<Inpaint>,
 }
 
 impl<L: Layout> Engine<L> {
@@ -66,14 +68,20 @@ impl<L: Layout> Engine<L> {
     ///
     /// *Errors:* a budget that does not fit the layout.
     pub fn new(bits: Bits, settings: Settings) -> Result<Self, EngineError> {
-        Ok(Self { budget: Chosen::new(bits)?, settings })
+        Ok(Self { budget: Chosen::new(bits)?, settings, inpaint: None })
     }
 
     /// An engine for a budget that keeps only a part of the layout's lanes, see [`Chosen::with_lanes`].
     ///
     /// *Errors:* lanes that the layout lacks, a budget that does not fit them.
     pub fn with_lanes(bits: Bits, lanes: Lanes, settings: Settings) -> Result<Self, EngineError> {
-        Ok(Self { budget: Chosen::with_lanes(bits, lanes)?, settings })
+        Ok(Self { budget: Chosen::with_lanes(bits, lanes)?, settings, inpaint: None })
+    }
+
+    /// The same with inpainting after each frame; its rung should be [`crate::fill::Fill::rung`]'s.
+    #[must_use]
+    pub fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
+        Self { inpaint, ..self }
     }
 
     /// Extrapolates an update by `frames` frames; `visit` sees the update itself (frame 0) and every frame.
@@ -98,6 +106,7 @@ impl<L: Layout> Engine<L> {
             Galpixmap::new(grid, self.budget, &mut back)?,
             Scratch { winners: &mut winners, edges: &mut edges },
         )?;
+        let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         let loaded = load(update, controller.front_mut());
         let mut origins: Vec<u32> = (0u32..)
             .zip(&update.samples)
@@ -108,6 +117,9 @@ impl<L: Layout> Engine<L> {
         for number in 1..=frames {
             let started = ThreadTime::now();
             let tally = controller.step(&self.settings);
+            if let Some(inpainter) = &mut inpainter {
+                inpainter.paint(&mut controller, &self.settings);
+            }
             let time = started.elapsed();
             origins = follow(&controller, &origins);
             visit(&Frame { number, tally, time, map: controller.front(), origins: &origins });

@@ -10,7 +10,6 @@ use galpix_core::budget::{Bits, Demand};
 use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::BudgetError;
-use galpix_core::fill::Rung;
 use galpix_core::frame::{Settings, Work};
 use galpix_core::layout::{Full, Layout, Shaded};
 use galpix_core::record::Record;
@@ -25,6 +24,7 @@ pub use work::work_gain;
 use crate::capture::{self, Capture, Census, ImportOptions};
 use crate::certificate::Certificate;
 use crate::engine::{Engine, EngineError, Frame};
+use crate::fill::Fill;
 use crate::picture::Picture;
 use crate::scene::{self, Scene};
 use crate::update::{DepthKind, Truth, Update};
@@ -140,7 +140,7 @@ pub struct Request {
     /// How positions are rounded.
     pub rounding: Rounding,
     /// What is put into holes.
-    pub fill: Rung,
+    pub fill: Fill,
     /// Rounds of bullet filling.
     pub reach: u32,
     /// The Laplacian beyond which a cell is on an edge, as a part of the depth range; by depth kind if absent.
@@ -157,7 +157,7 @@ impl Default for Request {
             recog: None,
             prop: None,
             rounding: Rounding::default(),
-            fill: Rung::default(),
+            fill: Fill::default(),
             reach: 1,
             edge_threshold: None,
             perceptual: true,
@@ -218,7 +218,7 @@ fn run_as<L: Layout>(
     let bits = Bits::derive(demand)?;
     let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
     let settings = settings(&record, update.depth_kind, request);
-    let engine = Engine::<L>::new(bits, settings)?;
+    let engine = Engine::<L>::new(bits, settings)?.inpainting(request.fill.inpaint());
     let hold = update.picture();
     let mut reports = Vec::with_capacity(frames as usize);
     let loaded = engine.run(update, frames, |frame| {
@@ -260,7 +260,7 @@ pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
     Settings {
         rounding: request.rounding,
-        rung: request.fill,
+        rung: request.fill.rung(),
         edge_threshold,
         reach: request.reach,
         work: Work::default(),

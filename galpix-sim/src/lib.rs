@@ -4,12 +4,15 @@
 //! it; an [`experiment`] compares each frame with the truth and with sample-and-hold; [`metric`], [`film`] and `report`
 //! turn that into numbers, moving pictures and a page.
 
+pub mod area;
 pub mod capture;
 pub mod certificate;
 pub mod cli;
 pub mod engine;
 pub mod experiment;
 pub mod figure;
+pub mod fill;
+pub mod fills;
 pub mod film;
 pub mod fit;
 pub mod metric;

@@ -7,8 +7,8 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const SCENES: [&str; 10] =
-    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball"];
+const SCENES: [&str; 11] =
+    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball", "fovea"];
 
 fn galpix(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
@@ -164,7 +164,7 @@ fn a_budget_that_cannot_exist_is_refused_with_a_remedy() {
 }
 
 #[test]
-fn scenes_lists_all_ten() {
+fn scenes_lists_all_eleven() {
     let folder = folder();
     let text = done(folder.path(), &["scenes"]);
     let names: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
@@ -248,13 +248,14 @@ fn a_capture_has_a_truth_where_its_manifest_names_one() {
 #[test]
 fn every_rung_and_rounding_is_known_by_name() {
     let folder = folder();
-    for rung in ["none", "hold", "debris", "bullet", "galdebris", "extend"] {
+    for rung in ["none", "hold", "debris", "bullet", "galdebris", "extend", "push-pull", "metamer"] {
         let report = json(folder.path(), &["run", "crossing", "--frames", "2", "--fill", rung, "--json"]);
         assert_eq!(report["fill"].as_str(), Some(rung));
     }
-    for rung in ["push-pull", "metamer"] {
-        refused(folder.path(), &["run", "crossing", "--fill", rung], &["not built yet", "extend"]);
+    for gamma in ["0", "1/2", "1"] {
+        done(folder.path(), &["run", "crossing", "--frames", "2", "--fill", "push-pull", "--gamma", gamma]);
     }
+    refused(folder.path(), &["run", "crossing", "--fill", "push-pull", "--gamma", "2"], &["gamma", "1/2"]);
     refused(folder.path(), &["run", "crossing", "--fill", "paint"], &["none", "galdebris", "extend"]);
     for rounding in ["truncate", "nearest", "low-discrepancy"] {
         let report = json(folder.path(), &["run", "drift", "--frames", "2", "--rounding", rounding, "--json"]);

@@ -165,6 +165,21 @@ fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
 }
 
 #[test]
+fn inpainting_is_a_rung_that_can_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments =
+        ["crossing", "--quick", "--frames", "2", "--lanes", "full", "--rungs", "hold,metamer,push-pull", "--json"];
+    let output = galpix(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let points = document["sources"][0]["points"].as_array().unwrap();
+    let of = |rung: &str| points.iter().find(|point| point["rung"] == rung).expect("a point");
+    let flip = |rung: &str| of(rung)["summary"]["flip"].as_f64().unwrap();
+    assert!(flip("metamer") < flip("hold"), "{} {}", flip("metamer"), flip("hold"));
+    assert!(of("metamer")["compile_time"]["frame_us"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
 fn a_capture_is_compared_by_age() {
     let folder = tempfile::tempdir().unwrap();
     let marbles = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles");
@@ -192,7 +207,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--prop", "1"], &["this budget cannot exist", "2 frames or more"]),
         (&["crossing", "--extent", "0"], &["this budget cannot exist"]),
         (&["crossing", "--extent", "4000000000"], &["this budget cannot exist"]),
-        (&["crossing", "--rungs", "push-pull"], &["not built yet"]),
+        (&["crossing", "--rungs", "paint"], &["paint"]),
         (&["crossing", "--lanes", "wheels"], &["wheels"]),
         (&["crossing", "--quick", "--full"], &["cannot be used with"]),
         (&["crossing", "--quick", "--out", "file/below"], &["cannot be written", "--out"]),

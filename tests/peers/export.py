@@ -3,7 +3,8 @@
     DIR/index.json
     DIR/<source>/<frame>/truth.png    the picture as it should be
     DIR/<source>/<frame>/mask.png     255 = a disoccluded cell that is not connected with the border, else 0
-    DIR/<source>/<frame>/warped.png   the picture as it arrives, its disoccluded cells black
+    DIR/<source>/<frame>/mask_all.png 255 = a cell that nothing reached, at the border or not; may be absent, then it is the mask
+    DIR/<source>/<frame>/warped.png   the picture as it arrives, the cells that nothing reached black
     DIR/<source>/<frame>/<fill>.png   the same picture with its holes filled
 
 What is not as it should be ends the script with one sentence and the exit code 2.
@@ -25,6 +26,9 @@ FILLS = ["none", "hold", "debris", "bullet", "galdebris", "extend", "push-pull-c
 PEERS = ["telea", "navier-stokes", "gortler"]
 
 GIVEN = {"truth", "mask", "warped"}
+
+# What an export may hold beside its fills.
+NO_FILLS = GIVEN | {"mask_all"}
 
 
 def refuse(sentence):
@@ -60,6 +64,8 @@ class Frame:
     folder: Path
     truth: np.ndarray
     mask: np.ndarray
+    # All cells of which nothing is known: a fill must not take the black of those at the border for a colour.
+    unknown: np.ndarray = None
 
     def picture(self, name):
         picture = read_rgb(self.folder / f"{name}.png")
@@ -82,9 +88,12 @@ class Source:
         """The frames in order; with `most` so many of them at most, spread evenly."""
         for folder in evenly(self.folders, most):
             truth, mask = read_rgb(folder / "truth.png"), read_mask(folder / "mask.png")
-            if truth.shape[:2] != mask.shape:
-                refuse(f"{folder / 'mask.png'} has another size than truth.png beside it.")
-            yield Frame(folder, truth, mask)
+            everything = folder / "mask_all.png"
+            unknown = read_mask(everything) if everything.is_file() else mask
+            for name, cells in (("mask.png", mask), ("mask_all.png", unknown)):
+                if truth.shape[:2] != cells.shape:
+                    refuse(f"{folder / name} has another size than truth.png beside it.")
+            yield Frame(folder, truth, mask, unknown)
 
 
 def evenly(items, most):
@@ -127,7 +136,7 @@ def read_source(folder):
         for name in sorted(GIVEN):
             if not (frame / f"{name}.png").is_file():
                 refuse(f"{frame} has no {name}.png.")
-    names = [{path.stem for path in frame.glob("*.png")} - GIVEN for frame in frames]
+    names = [{path.stem for path in frame.glob("*.png")} - NO_FILLS for frame in frames]
     everywhere = set.intersection(*names)
     for frame, here in zip(frames, names):
         # The peers are ours to write again; a fill of galpix that only some frames have is a broken export.

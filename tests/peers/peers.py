@@ -69,7 +69,7 @@ def fill(frame):
         rounds = []
         for _ in range(3):
             start = time.perf_counter()
-            picture = filler(warped, frame.mask)
+            picture = filler(warped, frame.unknown)
             rounds.append(1000 * (time.perf_counter() - start))
         write_rgb(frame.folder / f"{name}.png", picture)
         milliseconds[name] = median(rounds)

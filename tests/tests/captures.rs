@@ -47,7 +47,7 @@ struct Ran {
 }
 
 fn request(fill: Rung) -> Request {
-    Request { fill, perceptual: false, ..Request::default() }
+    Request { fill: fill.into(), perceptual: false, ..Request::default() }
 }
 
 fn open(manifest: &Path) -> Source {

@@ -55,7 +55,7 @@ fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) 
         let bits = step.bits(demand, lanes, &ranges).unwrap();
         let record = Record::plan(bits, lanes, Rgb888::BITS).unwrap();
         let settings = Settings { rounding, rung: Rung::Hold, ..Settings::for_depth(u32::from(record.depth().bits)) };
-        let configuration = Configuration { kept, step, rounding, rung: Rung::Hold };
+        let configuration = Configuration { kept, step, rounding, rung: Rung::Hold.into() };
         let certificate = Certificate::of(&record.scales[0], lanes.acceleration, rounding, demand.prop);
         let measured = measure::engine(&reference, &configuration, bits, settings).unwrap();
         assert_eq!(measured.frames.len(), reference.looked.len());

@@ -73,12 +73,12 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
     for (y, (&row, &next)) in (0..).zip(starts.iter().zip(starts.iter().skip(1))) {
         let mut x = 0;
         while x + 1 < width {
-            let run = (width - 1 - x).min(RUN);
-            // Bit i: a corner in column x + i is on an edge.
-            let columns = bits(edges, row + x) | bits(edges, next + x);
-            let quads = (columns | columns >> 1) & ((1 << run) - 1);
+            let run = (width - 1 - x).min(QUADS);
+            let on_edge = on_edge(edges, row + x) | on_edge(edges, next + x);
+            // A bit for each quad: two columns of it.
+            let quads = (on_edge | on_edge >> 1) & ((1 << run) - 1);
             if quads != 0 {
-                changed += step.draw_run(quads as u32, x, y, row, next);
+                changed += step.draw_run(quads, x, y, row, next);
             }
             x += run;
         }
@@ -86,15 +86,15 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
     changed
 }
 
-/// Quads that are looked at once.
-const RUN: u32 = 32;
+/// Quads beside each other whose columns fit into a word of the edge map.
+const QUADS: u32 = u32::BITS - 1;
 
-/// The edge bits of 33 cells from `cell` on, and more.
+/// Which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the map is.
 #[inline(always)]
-fn bits(edges: &[u32], cell: u32) -> u64 {
-    let word = |word: u32| u64::from(edges.get(word as usize).copied().unwrap_or(u32::MAX));
-    let at = cell / u32::BITS;
-    (word(at) | word(at + 1) << u32::BITS) >> (cell % u32::BITS)
+fn on_edge(edges: &[u32], cell: u32) -> u32 {
+    let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
+    let (at, shift) = ((cell / u32::BITS) as usize, cell % u32::BITS);
+    word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
 }
 
 /// See [`Step::motion`].
@@ -133,7 +133,7 @@ impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
         changed
     }
 
-    /// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn. Most are not.
+    /// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn.
     #[inline(always)]
     fn moves_as_one(&self, cells: [u32; 2]) -> bool {
         let mut differ = 0;

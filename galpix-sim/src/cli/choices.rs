@@ -6,6 +6,7 @@ use galpix_core::rounding::Rounding;
 
 use crate::capture::{AccelerationPolicy, ImportOptions};
 use crate::experiment::Request;
+use crate::fill::{Fill, Gamma, Inpaint, Kind};
 
 /// How positions are rounded.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -48,25 +49,73 @@ pub enum FillChoice {
     /// As bullet, and what was uncovered continues the farther of the surfaces beside it, along its row
     #[default]
     Extend,
-    /// Integer push-pull (not built yet)
+    /// As extend, and what was uncovered takes the colours around it that are no nearer, the finer the closer
     PushPull,
-    /// Metameric inpainting (not built yet)
+    /// As push-pull, with a texture that has the statistics of that around it
     Metamer,
 }
 
-impl FillChoice {
-    /// The rung of the engine, or one sentence on why there is none yet.
-    pub fn rung(self) -> Result<Rung, String> {
-        match self {
-            Self::None => Ok(Rung::None),
-            Self::Hold => Ok(Rung::Hold),
-            Self::Debris => Ok(Rung::Debris),
-            Self::Bullet => Ok(Rung::Bullet),
-            Self::Galdebris => Ok(Rung::Galdebris),
-            Self::Extend => Ok(Rung::Extend),
-            Self::PushPull | Self::Metamer => {
-                Err("--fill push-pull and metamer are not built yet: extend is the richest rung there is".to_owned())
-            }
+impl From<FillChoice> for Fill {
+    fn from(choice: FillChoice) -> Self {
+        match choice {
+            FillChoice::None => Rung::None.into(),
+            FillChoice::Hold => Rung::Hold.into(),
+            FillChoice::Debris => Rung::Debris.into(),
+            FillChoice::Bullet => Rung::Bullet.into(),
+            FillChoice::Galdebris => Rung::Galdebris.into(),
+            FillChoice::Extend => Rung::Extend.into(),
+            FillChoice::PushPull => Kind::PushPull.into(),
+            FillChoice::Metamer => Kind::Metamer.into(),
+        }
+    }
+}
+
+/// How much a cell counts of which only a part is known: that part to this power.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum GammaChoice {
+    /// As much as any other: sharp
+    #[value(name = "0")]
+    Zero,
+    /// In between
+    #[value(name = "1/2", alias = "0.5")]
+    Half,
+    /// In proportion: smooth in space and steady in time
+    #[value(name = "1")]
+    One,
+}
+
+impl From<GammaChoice> for Gamma {
+    fn from(choice: GammaChoice) -> Self {
+        match choice {
+            GammaChoice::Zero => Self::Zero,
+            GammaChoice::Half => Self::Half,
+            GammaChoice::One => Self::One,
+        }
+    }
+}
+
+/// How push-pull and metamer inpaint.
+#[derive(Clone, Debug, Default, Args)]
+pub struct Inpainting {
+    /// For push-pull and metamer: the power of the share that is known, by which partly known areas count [default: 0 for push-pull,
+    /// 1/2 for metamer]
+    #[arg(long, value_enum, value_name = "GAMMA")]
+    pub gamma: Option<GammaChoice>,
+    /// For push-pull and metamer: leave a disc of this radius in the middle of the display to the rung extend
+    #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(1..=32_768))]
+    pub fovea: Option<u32>,
+}
+
+impl Inpainting {
+    /// A fill as these arguments want it; a fill without inpainting is left as it is.
+    pub fn of(&self, fill: Fill) -> Fill {
+        match fill {
+            Fill::Rung(_) => fill,
+            Fill::Inpaint(inpaint) => Fill::Inpaint(Inpaint {
+                gamma: self.gamma.map_or(inpaint.gamma, Gamma::from),
+                fovea: self.fovea,
+                ..inpaint
+            }),
         }
     }
 }
@@ -107,6 +156,8 @@ pub struct Extrapolation {
     /// What is put into holes
     #[arg(long, value_enum, value_name = "RUNG", default_value_t)]
     pub fill: FillChoice,
+    #[command(flatten)]
+    pub inpainting: Inpainting,
     /// Rounds of bullet filling: each closes one cell more from each side
     #[arg(long, value_name = "ROUNDS", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=16))]
     pub reach: u32,
@@ -140,18 +191,18 @@ pub fn part(text: &str) -> Result<f64, String> {
 
 impl Extrapolation {
     /// The request that these arguments make.
-    pub fn request(&self) -> Result<Request, String> {
-        Ok(Request {
+    pub fn request(&self) -> Request {
+        Request {
             frames: self.frames,
             extent: self.extent,
             recog: self.recog,
             prop: self.prop,
             rounding: self.rounding.into(),
-            fill: self.fill.rung()?,
+            fill: self.inpainting.of(self.fill.into()),
             reach: self.reach,
             edge_threshold: self.edge_threshold,
             perceptual: true,
-        })
+        }
     }
 }
 

@@ -46,7 +46,7 @@ impl Demo {
     /// Runs the scenes.
     pub fn run(&self) -> Result<(), CliError> {
         let started = Instant::now();
-        let request = Request { perceptual: false, ..self.extrapolation.request().map_err(CliError::Unusable)? };
+        let request = Request { perceptual: false, ..self.extrapolation.request() };
         let sources = sources();
         sources.iter().try_for_each(|source| check(source, &request))?;
         std::fs::create_dir_all(&self.out).map_err(|error| CliError::unwritable(&self.out, &error))?;
@@ -85,7 +85,7 @@ impl Demo {
 }
 
 /// The built-in scenes, and the project's own capture if its folder is there.
-fn sources() -> Vec<Source> {
+pub(super) fn sources() -> Vec<Source> {
     let mut sources: Vec<Source> = scene::all().iter().map(|&scene| Source::Scene(scene)).collect();
     let capture = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles/capture.toml");
     if capture.exists() {

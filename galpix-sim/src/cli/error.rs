@@ -7,9 +7,11 @@ use clap::{Args, ValueEnum};
 use galpix_core::fill::Rung;
 use galpix_core::rounding::Rounding;
 
-use super::choices::{AccelerationChoice, FillChoice, RoundingChoice, part};
+use super::call::{command, machine, writable};
+use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
 use super::{CliError, print, print_json};
 use crate::experiment::{Request, Source};
+use crate::fill::Fill;
 use crate::progress;
 use crate::report;
 use crate::tradeoff::design::{Extent, Kept};
@@ -65,9 +67,11 @@ pub struct Error {
     /// Roundings to choose from [default: all]
     #[arg(long, value_enum, value_name = "ROUNDINGS", value_delimiter = ',')]
     roundings: Vec<RoundingChoice>,
-    /// Rungs to choose from [default: all that are built]
+    /// Rungs to choose from [default: all that do not inpaint]
     #[arg(long, value_enum, value_name = "RUNGS", value_delimiter = ',')]
     rungs: Vec<FillChoice>,
+    #[command(flatten)]
+    inpainting: Inpainting,
     /// Frames to extrapolate [default: what the source is meant for]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     frames: Option<u32>,
@@ -142,12 +146,11 @@ impl Error {
     }
 
     fn plan(&self) -> Result<Plan, CliError> {
-        let mut rungs =
-            self.rungs.iter().map(|rung| rung.rung()).collect::<Result<Vec<Rung>, _>>().map_err(CliError::Unusable)?;
+        let mut rungs: Vec<Fill> = self.rungs.iter().map(|&rung| self.inpainting.of(rung.into())).collect();
         let mut roundings: Vec<Rounding> = self.roundings.iter().map(|&rounding| rounding.into()).collect();
         let mut kept: Vec<Kept> = self.lanes.iter().map(|&lanes| lanes.into()).collect();
         let place = |rounding: &Rounding| Rounding::ALL.iter().position(|other| other == rounding);
-        rungs.sort_unstable();
+        rungs.sort_unstable_by_key(|rung| Fill::all().iter().position(|other| other.name() == rung.name()));
         rungs.dedup();
         roundings.sort_unstable_by_key(place);
         roundings.dedup();
@@ -170,18 +173,10 @@ impl Error {
             },
             kept: all(kept.is_empty()).map_or(kept, |()| Kept::ALL.to_vec()),
             roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
-            rungs: all(rungs.is_empty()).map_or(rungs, |()| Rung::ALL.to_vec()),
+            rungs: all(rungs.is_empty()).map_or(rungs, |()| Rung::ALL.map(Fill::from).to_vec()),
             extent,
         })
     }
-}
-
-/// Makes the folder and tries to write into it, before anything is measured.
-fn writable(out: &Path) -> Result<(), CliError> {
-    let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
-    std::fs::create_dir_all(out).map_err(unwritable)?;
-    let probe = out.join(format!(".error.{}.probe", std::process::id()));
-    std::fs::write(&probe, []).and_then(|()| std::fs::remove_file(&probe)).map_err(unwritable)
 }
 
 /// Writes the three files; the page last, so that where there is one, the others are there too.
@@ -193,29 +188,4 @@ fn write(out: &Path, document: &Document) -> Result<(), CliError> {
         report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
     }
     Ok(())
-}
-
-/// The call, as it can be repeated.
-fn command() -> String {
-    let quoted = |argument: String| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
-        if !argument.is_empty() && argument.chars().all(plain) {
-            argument
-        } else {
-            format!("'{}'", argument.replace('\'', r"'\''"))
-        }
-    };
-    let arguments = std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
-    std::iter::once("galpix".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
-}
-
-/// The processor's name and the number of its threads, as far as the system tells.
-fn machine() -> String {
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let name = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
-        let line = text.lines().find(|line| line.starts_with("model name"))?;
-        Some(line.split_once(':')?.1.trim().to_owned())
-    });
-    let name = name.unwrap_or_else(|| format!("{} ({})", std::env::consts::ARCH, std::env::consts::OS));
-    format!("{name}, {threads} threads")
 }

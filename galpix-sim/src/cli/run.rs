@@ -27,7 +27,7 @@ pub struct Run {
 impl Run {
     /// Runs the source.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = self.extrapolation.request().map_err(CliError::Unusable)?;
+        let request = self.extrapolation.request();
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         check(&source, &request)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));

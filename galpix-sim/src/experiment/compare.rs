@@ -1,11 +1,10 @@
 //! A frame beside the truth: as a picture, and galpixel by galpixel.
 
-use std::collections::VecDeque;
-
 use galpix_core::layout::Layout;
 
 use super::Source;
 use super::report::{PositionReport, TruthReport};
+use crate::area;
 use crate::engine::Frame;
 use crate::metric;
 use crate::picture::Picture;
@@ -28,42 +27,11 @@ pub fn compare(picture: &Picture, hold: &Picture, truth: &Truth, reached: &[bool
         ssim: perceptual(metric::ssim),
         flip: perceptual(metric::flip),
         missing: missing.iter().filter(|&&missing| missing).count() as u64,
-        missing_at_border: connected_with_border(&missing, truth.picture.width, truth.picture.height),
+        missing_at_border: area::at_border(&missing, truth.picture.width, truth.picture.height)
+            .into_iter()
+            .filter(|&there| there)
+            .count() as u64,
     }
-}
-
-/// How many of the set cells are connected with the border by set cells that share a side.
-fn connected_with_border(set: &[bool], width: usize, height: usize) -> u64 {
-    let mut seen = vec![false; set.len()];
-    let mut queue: VecDeque<usize> = VecDeque::new();
-    let mut reach = |cell: usize, queue: &mut VecDeque<usize>| {
-        if set[cell] && !seen[cell] {
-            seen[cell] = true;
-            queue.push_back(cell);
-        }
-    };
-    for cell in 0..width * height {
-        let (x, y) = (cell % width, cell / width);
-        if x == 0 || y == 0 || x + 1 == width || y + 1 == height {
-            reach(cell, &mut queue);
-        }
-    }
-    while let Some(cell) = queue.pop_front() {
-        let (x, y) = (cell % width, cell / width);
-        if x > 0 {
-            reach(cell - 1, &mut queue);
-        }
-        if x + 1 < width {
-            reach(cell + 1, &mut queue);
-        }
-        if y > 0 {
-            reach(cell - width, &mut queue);
-        }
-        if y + 1 < height {
-            reach(cell + width, &mut queue);
-        }
-    }
-    seen.iter().filter(|&&seen| seen).count() as u64
 }
 
 /// The worst and the mean of some errors.
@@ -108,17 +76,4 @@ pub(crate) fn position<L: Layout>(source: &Source, update: &Update, frame: &Fram
         truth_worst_px: (truth.count > 0).then_some(truth.worst),
         truth_mean_px: (truth.count > 0).then(|| truth.mean()),
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_what_touches_the_border_is_connected_with_it() {
-        let art = ["#..#.", "#.#..", "..#..", ".....", ".##.#"];
-        let set: Vec<bool> = art.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
-        // The two cells in the middle touch no border cell by a side; everything else does.
-        assert_eq!(connected_with_border(&set, 5, 5), 6);
-    }
 }

@@ -31,7 +31,7 @@ fn gain<L: Layout>(update: &Update, bits: Bits, request: &Request, frames: u32) 
     let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
     let settings = settings(&record, update.depth_kind, request);
     let median = |work: Work| -> Result<Duration, ExperimentError> {
-        let engine = Engine::<L>::new(bits, Settings { work, ..settings })?;
+        let engine = Engine::<L>::new(bits, Settings { work, ..settings })?.inpainting(request.fill.inpaint());
         let mut times = Vec::with_capacity(frames as usize);
         engine.run(update, frames, |frame| {
             if frame.number > 0 {

@@ -1,6 +1,6 @@
-//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP.
+//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough and how restless it is.
 //!
-//! All three take the shown picture first, the truth second, and an optional mask of the cells that count (row-major, of
+//! The first three take the shown picture first, the truth second, and an optional mask of the cells that count (row-major, of
 //! the pictures' size; everything counts without it). They answer `None`, never panic, where there is nothing sound to
 //! say: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no pixel, none that counts.
 //!
@@ -9,8 +9,13 @@
 //! | [`psnr_db`] | code values, R, G and B alike | 0 ..= 100 dB, 100 |
 //! | [`ssim()`] | luma | about -1 ..= 1, 1 |
 //! | [`flip`] | contrast-filtered opponent colours | 0 ..= 1, **0** |
+//! | [`ssimulacra2()`] | XYB | below 100, 100; whole pictures only |
 
+mod local;
 mod ssim;
+mod ssimulacra;
+
+pub use local::{change, variance};
 
 use crate::picture::Picture;
 use nv_flip::FlipImageRgb8;
@@ -79,6 +84,21 @@ pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
         }
     }
     Some(sum / cells as f64)
+}
+
+/// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to tell, 30 and below is poor. `None` for
+/// pictures with a side below 8 pixels.
+#[must_use]
+pub fn ssimulacra2(shown: &Picture, truth: &Picture) -> Option<f64> {
+    comparable(shown, truth, None)?;
+    ssimulacra::score(shown, truth)
+}
+
+/// Luma by Rec. 709 weights on the sRGB code values, 0 to 255.
+#[must_use]
+pub fn luma(pixel: &[u8; 3]) -> f64 {
+    let [red, green, blue] = pixel.map(f64::from);
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
 /// `Some` if the two pictures and the mask have one size, hold what their size says, and at least one cell counts.
@@ -200,6 +220,19 @@ mod tests {
         one[5] = true;
         // fifteen cells agree; averaged over all sixteen the figure would be below 1/16
         assert!(flip(&white, &black, Some(&one)) > Some(0.1));
+    }
+
+    #[test]
+    fn ssimulacra2_is_100_for_equals_and_falls_with_the_error() {
+        let truth = Picture { width: 32, height: 32, pixels: (0..1024).map(|i| [(i * 37 % 251) as u8; 3]).collect() };
+        let off = |by: u8| {
+            let pixels = truth.pixels.iter().map(|pixel| pixel.map(|channel| channel.saturating_add(by))).collect();
+            Picture { pixels, ..truth.clone() }
+        };
+        near(ssimulacra2(&truth, &truth), 100.0, 1e-3);
+        let scores = [4, 20, 80].map(|by| ssimulacra2(&off(by), &truth).unwrap());
+        assert!(100.0 > scores[0] && scores[0] > scores[1] && scores[1] > scores[2], "{scores:?}");
+        assert_eq!(ssimulacra2(&Picture::filled(7, 9, [0; 3]), &Picture::filled(7, 9, [0; 3])), None);
     }
 
     #[test]

@@ -21,12 +21,8 @@ impl Plane {
         Self { width, height, cells: (0..width * height).map(cell).collect() }
     }
 
-    /// Luma by Rec. 709 weights on the sRGB code values, 0 to 255.
     fn luma(picture: &Picture) -> Self {
-        Self::of(picture.width, picture.height, |cell| {
-            let [red, green, blue] = picture.pixels[cell].map(f64::from);
-            0.2126 * red + 0.7152 * green + 0.0722 * blue
-        })
+        Self::of(picture.width, picture.height, |cell| super::luma(&picture.pixels[cell]))
     }
 
     fn product(&self, other: &Self) -> Self {

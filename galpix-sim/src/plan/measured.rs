@@ -54,7 +54,7 @@ impl Subject<'_> {
     /// The settings of a build.
     pub fn settings(&self, build: &Build) -> Result<Settings, PlanError> {
         let record = Record::plan(build.bits, build.lanes, COLOUR_BITS)?;
-        let request = Request { rounding: build.rounding, fill: build.rung, ..*self.request };
+        let request = Request { rounding: build.rounding, fill: build.rung.into(), ..*self.request };
         Ok(experiment::settings(&record, self.update.depth_kind, &request))
     }
 

@@ -8,6 +8,7 @@ mod ball;
 mod crossing;
 mod disc;
 mod drift;
+mod fovea;
 pub mod jet;
 mod near_plane;
 mod pan;
@@ -148,6 +149,7 @@ pub fn all() -> &'static [&'static dyn Scene] {
         &sphere::Sphere,
         &near_plane::NearPlane,
         &ball::Ball,
+        &fovea::Fovea,
     ]
 }
 

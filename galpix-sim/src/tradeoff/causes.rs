@@ -64,7 +64,8 @@ pub fn causes(
     let lanes = configuration.kept.lanes();
     let mut frames = Vec::with_capacity(reference.frames as usize);
     let mut pairs = Vec::new();
-    Engine::<Shaded>::with_lanes(bits, lanes, settings)?.run(&reference.update, reference.frames, |frame| {
+    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?.inpainting(configuration.rung.inpaint());
+    engine.run(&reference.update, reference.frames, |frame| {
         if frame.number == 0 {
             return;
         }

@@ -116,7 +116,7 @@ fn summary(summary: &Summary) -> [String; 11] {
 }
 
 /// A line, quoted where a cell needs it.
-fn line(cells: &[String]) -> String {
+pub(crate) fn line(cells: &[String]) -> String {
     let quoted = |cell: &String| {
         if cell.contains([',', '"', '\n', '\r']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.clone() }
     };

@@ -7,6 +7,7 @@ use galpix_core::layout::Lanes;
 use galpix_core::rounding::Rounding;
 
 use super::ranges::Ranges;
+use crate::fill::Fill;
 
 /// Which lanes a galpixel carries beside its class and colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -130,7 +131,7 @@ pub struct Configuration {
     /// The rounding of positions.
     pub rounding: Rounding,
     /// What is put into holes.
-    pub rung: Rung,
+    pub rung: Fill,
 }
 
 /// How much is measured.
@@ -155,7 +156,7 @@ pub struct Axes {
     /// Roundings.
     pub roundings: Vec<Rounding>,
     /// Rungs.
-    pub rungs: Vec<Rung>,
+    pub rungs: Vec<Fill>,
 }
 
 impl Axes {
@@ -197,10 +198,12 @@ impl Axes {
                 chosen.push(Configuration { kept, step: fitted, ..middle });
             }
             for &rung in &self.rungs {
-                let telling = matches!(rung, Rung::Hold | Rung::Bullet) || rung == middle.rung;
+                let telling = matches!(rung, Fill::Rung(Rung::Hold | Rung::Bullet)) || rung == middle.rung;
                 match extent {
-                    Extent::Quick if !telling || rung == Rung::Bullet => continue,
-                    Extent::Sparing if kept != middle.kept && (!telling || rung == Rung::Bullet) => continue,
+                    Extent::Quick if !telling || rung == Fill::Rung(Rung::Bullet) => continue,
+                    Extent::Sparing if kept != middle.kept && (!telling || rung == Fill::Rung(Rung::Bullet)) => {
+                        continue;
+                    }
                     Extent::Sensible if !telling && kept != middle.kept => continue,
                     _ => chosen.push(Configuration { kept, rung, ..middle }),
                 }
@@ -237,7 +240,11 @@ mod tests {
     use super::*;
 
     fn axes() -> Axes {
-        Axes { kept: Kept::ALL[..5].to_vec(), roundings: Rounding::ALL.to_vec(), rungs: Rung::ALL.to_vec() }
+        Axes {
+            kept: Kept::ALL[..5].to_vec(),
+            roundings: Rounding::ALL.to_vec(),
+            rungs: Rung::ALL.map(Fill::from).to_vec(),
+        }
     }
 
     #[test]
@@ -257,11 +264,12 @@ mod tests {
 
     #[test]
     fn a_list_of_one_is_all_that_is_run() {
-        let one = Axes { kept: vec![Kept::Velocity], roundings: vec![Rounding::Truncate], rungs: vec![Rung::Hold] };
+        let one =
+            Axes { kept: vec![Kept::Velocity], roundings: vec![Rounding::Truncate], rungs: vec![Rung::Hold.into()] };
         for configuration in one.design(Extent::Full) {
             assert_eq!(
                 (configuration.kept, configuration.rounding, configuration.rung),
-                (Kept::Velocity, Rounding::Truncate, Rung::Hold)
+                (Kept::Velocity, Rounding::Truncate, Rung::Hold.into())
             );
         }
     }

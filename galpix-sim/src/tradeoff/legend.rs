@@ -4,6 +4,7 @@ use galpix_core::fill::Rung;
 use galpix_core::rounding::Rounding;
 
 use super::report::{Point, Scheme, SourceReport};
+use crate::fill::{Fill, Inpaint, Kind};
 use crate::report::scatter::{self, Shape};
 use crate::report::style::Ink;
 use crate::report::text::Text;
@@ -13,10 +14,16 @@ pub fn ink(point: &Point) -> Ink {
     if point.scheme == Scheme::F32 {
         return Ink::Label;
     }
-    rung_ink(Rung::ALL.into_iter().find(|rung| rung.name() == point.rung).unwrap_or_default())
+    fill_ink(Fill::all().into_iter().find(|fill| fill.name() == point.rung).unwrap_or_default())
 }
 
-const fn rung_ink(rung: Rung) -> Ink {
+/// The colour of what is put into holes.
+pub(crate) const fn fill_ink(fill: Fill) -> Ink {
+    let rung = match fill {
+        Fill::Inpaint(Inpaint { kind: Kind::PushPull, .. }) => return Ink::Bound,
+        Fill::Inpaint(Inpaint { kind: Kind::Metamer, .. }) => return Ink::Lost,
+        Fill::Rung(rung) => rung,
+    };
     match rung {
         Rung::None => Ink::Collided,
         Rung::Hold => Ink::Hold,
@@ -63,9 +70,9 @@ pub fn key(source: &SourceReport, bounds: bool) -> String {
     let entry =
         |shape, ink, radius, name: &str| format!("<span>{}{}</span> ", scatter::key(shape, ink, radius), Text(name));
     let mut legend = String::new();
-    for rung in Rung::ALL {
-        if source.points.iter().any(|point| point.scheme == Scheme::Galpix && point.rung == rung.name()) {
-            legend += &entry(Shape::Disc, rung_ink(rung), 5.0, rung.name());
+    for fill in Fill::all() {
+        if source.points.iter().any(|point| point.scheme == Scheme::Galpix && point.rung == fill.name()) {
+            legend += &entry(Shape::Disc, fill_ink(fill), 5.0, fill.name());
         }
     }
     for rounding in Rounding::ALL {

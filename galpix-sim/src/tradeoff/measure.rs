@@ -33,7 +33,7 @@ pub fn engine(
     settings: Settings,
 ) -> Result<Measured, EngineError> {
     let lanes = configuration.kept.lanes();
-    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?;
+    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?.inpainting(configuration.rung.inpaint());
     let mut frames = Vec::with_capacity(reference.looked.len());
     let mut saturated = 0;
     let loaded = engine.run(&reference.update, reference.frames, |frame| {
@@ -54,7 +54,7 @@ pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measu
     let lanes = configuration.kept.lanes();
     let mut frames = Vec::with_capacity(reference.looked.len());
     let Reference { update, looked, .. } = reference;
-    float::run(update, configuration.kept, configuration.rung, reference.frames, looked, |frame| {
+    float::run(update, configuration.kept, configuration.rung.rung(), reference.frames, looked, |frame| {
         let mut error = positions(reference, frame.number, lanes, None, frame.places.iter().copied());
         error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
         frames.push(error);

@@ -28,6 +28,8 @@ pub mod timing;
 
 mod points;
 
+pub(crate) use legend::fill_ink;
+
 use galpix_core::budget::{Bits, Demand};
 use galpix_core::layout::Lanes;
 
@@ -49,7 +51,7 @@ pub struct Plan {
     /// Roundings to choose from.
     pub roundings: Vec<galpix_core::rounding::Rounding>,
     /// Rungs to choose from.
-    pub rungs: Vec<galpix_core::fill::Rung>,
+    pub rungs: Vec<crate::fill::Fill>,
     /// How many configurations.
     pub extent: Extent,
 }
@@ -136,7 +138,7 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
     tell(Work::Ahead(1));
     let (causes, shown) = causes::causes(&study.reference, &middle, bits, settings)?;
     let rates = match source {
-        Source::Scene(scene) => rates::rates(*scene, frames, bits, middle.kept.lanes(), settings)?,
+        Source::Scene(scene) => rates::rates(*scene, frames, bits, &middle, settings)?,
         Source::Capture(_) => Vec::new(),
     };
     tell(Work::Done);

@@ -19,6 +19,7 @@ use super::timing::{Engine, InFloats, Maker, Time, race};
 use super::{Study, Work, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::experiment::{ExperimentError, Request, settings};
+use crate::fill::Fill;
 
 /// A configuration whose budget exists.
 struct Candidate {
@@ -31,7 +32,7 @@ struct Candidate {
 impl Candidate {
     /// Whether another one would do the same.
     fn is(&self, other: &Self) -> bool {
-        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept);
+        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept, of.configuration.rung);
         what(self) == what(other)
     }
 }
@@ -103,11 +104,11 @@ impl Study<'_> {
     fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
         let mut floats: Vec<Configuration> = Vec::new();
         let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
-        let none = candidates.iter().any(|candidate| candidate.configuration.rung == Rung::None);
+        let none = candidates.iter().any(|candidate| candidate.configuration.rung == Rung::None.into());
         for Candidate { configuration, .. } in candidates {
-            for rung in [Rung::None, Rung::Hold] {
+            for rung in [Rung::None, Rung::Hold].map(Fill::from) {
                 // Black holes are for study: the richest lanes show them.
-                let shown = rung == Rung::Hold || none && configuration.kept == middle;
+                let shown = rung == Rung::Hold.into() || none && configuration.kept == middle;
                 let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
                 if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
                     floats.push(float);
@@ -183,17 +184,18 @@ impl Study<'_> {
         for candidate in candidates {
             makers.push(Box::new(move || {
                 let budget = Chosen::<Shaded>::with_lanes(candidate.bits, candidate.configuration.kept.lanes()).ok()?;
-                Some(Box::new(Engine::<Shaded, _>::new(update, budget, candidate.settings)?))
+                let inpaint = candidate.configuration.rung.inpaint();
+                Some(Box::new(Engine::<Shaded, _>::new(update, budget, candidate.settings, inpaint)?))
             }));
         }
         for configuration in floats {
             let cells = update.samples.len();
             makers.push(Box::new(move || {
                 let maps = float::maps(configuration.kept, update.width, update.height)?;
-                Some(Box::new(InFloats { maps, rung: configuration.rung, cells }))
+                Some(Box::new(InFloats { maps, rung: configuration.rung.rung(), cells }))
             }));
         }
-        let mut fixed: Vec<(String, Rung)> = Vec::new();
+        let mut fixed: Vec<(String, Fill)> = Vec::new();
         for candidate in candidates {
             let Some(stand_in) = stand_in::of(candidate.configuration.kept, candidate.record.words()) else { continue };
             let kind = (stand_in.name(), candidate.configuration.rung);
@@ -201,7 +203,8 @@ impl Study<'_> {
                 fixed.push(kind);
                 // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another number.
                 let settings = self.stand_in_settings(stand_in, candidate);
-                makers.push(Box::new(move || stand_in.contender(update, settings)));
+                let inpaint = candidate.configuration.rung.inpaint();
+                makers.push(Box::new(move || stand_in.contender(update, settings, inpaint)));
             }
         }
         tell(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));

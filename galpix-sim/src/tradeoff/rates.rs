@@ -5,11 +5,12 @@
 
 use galpix_core::budget::Bits;
 use galpix_core::frame::Settings;
-use galpix_core::layout::{Lanes, Shaded};
+use galpix_core::layout::Shaded;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::causes::Pair;
+use super::design::Configuration;
 use crate::engine::{Engine, EngineError};
 use crate::metric;
 use crate::picture::Picture;
@@ -101,12 +102,13 @@ pub fn rates(
     scene: &dyn Scene,
     frames: u32,
     bits: Bits,
-    lanes: Lanes,
+    configuration: &Configuration,
     settings: Settings,
 ) -> Result<Vec<Rate>, EngineError> {
     let length = length(frames);
     let truths: Vec<Picture> = (0..length).map(|t| scene::render(scene, f64::from(t))).collect();
-    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?;
+    let engine = Engine::<Shaded>::with_lanes(bits, configuration.kept.lanes(), settings)?
+        .inpainting(configuration.rung.inpaint());
     let everies: Vec<u32> = EVERY.into_iter().filter(|&every| every <= length).collect();
     // What follows an update does not depend on when the next one comes: each is extrapolated once, for the slowest rate.
     let starts: Vec<u32> = (0..length).filter(|start| start % 2 == 0 || length == 1).collect();

@@ -10,6 +10,7 @@ use galpix_core::layout::{Lanes, Layout};
 
 use super::design::Kept;
 use super::timing::{Contender, Engine};
+use crate::fill::Inpaint;
 use crate::update::Update;
 
 /// A budget and lanes that are fixed at compile time.
@@ -21,7 +22,7 @@ pub struct StandIn {
     pub words: usize,
     /// `D`, `tau_recog` and `tau_prop` of its budget.
     pub demand: Demand,
-    make: fn(&Update, Settings) -> Option<Box<dyn Contender>>,
+    make: fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>,
 }
 
 macro_rules! stand_ins {
@@ -41,8 +42,8 @@ macro_rules! stand_ins {
             kept: Kept::$kept,
             words: <Static<$name> as Fixed<$name>>::RECORD.words(),
             demand: Demand { extent: $extent, recog: 8, prop: $prop },
-            make: |update, settings| {
-                Some(Box::new(Engine::<$name, Static<$name>>::new(update, Static::new(), settings)?))
+            make: |update, settings, inpaint| {
+                Some(Box::new(Engine::<$name, Static<$name>>::new(update, Static::new(), settings, inpaint)?))
             },
         }),*];
     };
@@ -67,8 +68,13 @@ pub fn of(kept: Kept, words: usize) -> Option<&'static StandIn> {
 impl StandIn {
     /// The engine of this stand-in over an update.
     #[must_use]
-    pub fn contender(&self, update: &Update, settings: Settings) -> Option<Box<dyn Contender>> {
-        (self.make)(update, settings)
+    pub fn contender(
+        &self,
+        update: &Update,
+        settings: Settings,
+        inpaint: Option<Inpaint>,
+    ) -> Option<Box<dyn Contender>> {
+        (self.make)(update, settings, inpaint)
     }
 
     /// Its name: lanes and words.

@@ -11,7 +11,7 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use galpix_core::edge;
 use galpix_core::fill::Rung;
-use galpix_core::frame::{Scratch, Settings, step};
+use galpix_core::frame::{Controller, Scratch, Settings};
 use galpix_core::galpixel::Budget;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
@@ -20,6 +20,7 @@ use serde::Serialize;
 
 use super::float::Floats;
 use crate::engine::{core_wings, load};
+use crate::fill::{Inpaint, Inpainter};
 use crate::update::Update;
 
 /// What can be timed.
@@ -55,13 +56,14 @@ pub struct Engine<L, B> {
     winners: Vec<u32>,
     edges: Vec<u32>,
     frame: u32,
+    inpainter: Option<Inpainter>,
     layout: std::marker::PhantomData<L>,
 }
 
 impl<L: Layout, B: Budget<L>> Engine<L, B> {
-    /// For updates of the size of this one; `None` where such a map cannot be.
+    /// For updates of the size of this one, with what follows each frame; `None` where such a map cannot be.
     #[must_use]
-    pub fn new(update: &Update, budget: B, settings: Settings) -> Option<Self> {
+    pub fn new(update: &Update, budget: B, settings: Settings, inpaint: Option<Inpaint>) -> Option<Self> {
         let wings = core_wings(update.wings);
         let size = (update.display_width() as u32, update.display_height() as u32);
         let mut starts = vec![0; Grid::rows(size.1, wings)];
@@ -69,8 +71,10 @@ impl<L: Layout, B: Budget<L>> Engine<L, B> {
         let words = Galpixmap::<L, B>::words(&grid, budget);
         // Rungs that do not tell surfaces apart need no scratch memory, and a product would not lend any.
         let scratch = if settings.rung.tells_surfaces() { (grid.cells() as usize, edge::words(&grid)) } else { (0, 0) };
+        let inpainter = inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         Some(Self {
             budget,
+            inpainter,
             settings,
             size,
             wings,
@@ -102,9 +106,14 @@ impl<L: Layout, B: Budget<L>> Contender for Engine<L, B> {
         let Ok(grid) = Grid::new(self.size.0, self.size.1, self.wings, &mut self.starts) else { return };
         let front = Galpixmap::<L, B>::over(grid, self.budget, &mut self.front);
         let back = Galpixmap::<L, B>::over(grid, self.budget, &mut self.back);
-        if let (Ok(front), Ok(mut back)) = (front, back) {
-            let mut scratch = Scratch { winners: &mut self.winners, edges: &mut self.edges };
-            step(&front, &mut back, &mut scratch, &self.settings, self.frame);
+        if let (Ok(front), Ok(back)) = (front, back) {
+            let scratch = Scratch { winners: &mut self.winners, edges: &mut self.edges };
+            let Ok(mut controller) = Controller::new(front, back, scratch) else { return };
+            controller.set_frame(self.frame);
+            controller.step(&self.settings);
+            if let Some(inpainter) = &mut self.inpainter {
+                inpainter.paint(&mut controller, &self.settings);
+            }
         }
         std::mem::swap(&mut self.front, &mut self.back);
         self.frame = self.frame.wrapping_add(1);

@@ -1,0 +1,38 @@
+//! What a report says of how it was made, and where its files go.
+
+use std::path::Path;
+
+use super::CliError;
+
+/// The call, as it can be repeated.
+pub fn command() -> String {
+    let quoted = |argument: String| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
+        if !argument.is_empty() && argument.chars().all(plain) {
+            argument
+        } else {
+            format!("'{}'", argument.replace('\'', r"'\''"))
+        }
+    };
+    let arguments = std::env::args_os().skip(1).map(|argument| quoted(argument.to_string_lossy().into_owned()));
+    std::iter::once("galpix".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+/// The processor's name and the number of its threads, as far as the system tells.
+pub fn machine() -> String {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let name = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim().to_owned())
+    });
+    let name = name.unwrap_or_else(|| format!("{} ({})", std::env::consts::ARCH, std::env::consts::OS));
+    format!("{name}, {threads} threads")
+}
+
+/// Makes the folder and tries to write into it, before anything is measured.
+pub fn writable(out: &Path) -> Result<(), CliError> {
+    let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
+    std::fs::create_dir_all(out).map_err(unwritable)?;
+    let probe = out.join(format!(".galpix.{}.probe", std::process::id()));
+    std::fs::write(&probe, []).and_then(|()| std::fs::remove_file(&probe)).map_err(unwritable)
+}

@@ -1,0 +1,139 @@
+//! `galpix fills`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+
+use super::call::{command, machine, writable};
+use super::choices::{AccelerationChoice, Inpainting};
+use super::demo::sources;
+use super::{CliError, check, print, print_json, printable, printable_lines, say};
+use crate::experiment::{Request, Source};
+use crate::fill::Gamma;
+use crate::fills::case::{self, Case};
+use crate::fills::export::{self, Export};
+use crate::fills::report::Document;
+use crate::fills::{self, FillsError, Plan, csv, page, table};
+use crate::progress;
+use crate::report;
+
+/// Arguments of `galpix fills`.
+#[derive(Debug, Args)]
+pub struct Fills {
+    /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture marbles]
+    #[arg(value_name = "SOURCE")]
+    sources: Vec<String>,
+    /// Fills to compare [default: all of none, hold, debris, bullet, galdebris, extend, push-pull-classic, push-pull, metamer]
+    #[arg(long, value_name = "FILLS", value_delimiter = ',')]
+    fills: Vec<String>,
+    #[command(flatten)]
+    inpainting: Inpainting,
+    /// Frames to extrapolate [default: what the source is meant for]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    frames: Option<u32>,
+    /// What is done with the accelerations of a capture
+    #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
+    acceleration: AccelerationChoice,
+    /// Folder for fills.html, fills.csv, fills.json, and each picture with its mask and its truth, listed in index.json [default:
+    /// galpix-out/fills; with --json nothing is written without it]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Fills {
+    /// Compares the fills and writes the report.
+    pub fn run(&self) -> Result<(), CliError> {
+        let started = Instant::now();
+        let plan = self.plan()?;
+        let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
+        let sources = match self.sources.as_slice() {
+            [] => sources(),
+            names => names.iter().map(open).collect::<Result<_, _>>()?,
+        };
+        sources.iter().try_for_each(|source| check(source, &plan.request))?;
+        let out = match (&self.out, self.json) {
+            (Some(out), _) => Some(out.clone()),
+            (None, true) => None,
+            (None, false) => Some(PathBuf::from("galpix-out/fills")),
+        };
+        if let Some(out) = &out {
+            writable(out)?;
+        }
+        let export = out.as_deref().map(Export::new);
+        let mut document = Document {
+            version: env!("CARGO_PKG_VERSION"),
+            command: command(),
+            machine: machine(),
+            seconds: 0.0,
+            fovea: plan.fovea,
+            sources: Vec::new(),
+            nothing_disoccluded: Vec::new(),
+        };
+        for source in &sources {
+            let name = printable(source.name());
+            let bar = progress::bar(plan.cases.len() as u64, &name);
+            let report = fills::study(source, &plan, export.as_ref(), || bar.inc(1)).map_err(|error| match error {
+                FillsError::Experiment(_) | FillsError::Export(_) => CliError::unusable(error),
+            })?;
+            bar.finish_and_clear();
+            match report {
+                Some(report) => {
+                    if !self.json {
+                        print(&printable_lines(&table::text(&report)))?;
+                    }
+                    document.sources.push(report);
+                }
+                None => {
+                    say(&format!("{name}: nothing is disoccluded"));
+                    document.nothing_disoccluded.push(source.name().to_owned());
+                }
+            }
+        }
+        document.seconds = started.elapsed().as_secs_f64();
+        if !self.json {
+            print(table::LEGEND)?;
+        }
+        if let Some(out) = &out {
+            write(out, &document)?;
+        }
+        match out {
+            _ if self.json => print_json(&document),
+            Some(out) => print(&out.join("fills.html").display().to_string()),
+            None => Ok(()),
+        }
+    }
+
+    fn plan(&self) -> Result<Plan, CliError> {
+        let mut cases = case::all(self.inpainting.gamma.map(Gamma::from), self.inpainting.fovea);
+        let names: Vec<&str> = cases.iter().map(|case| case.name).collect();
+        if let Some(unknown) = self.fills.iter().find(|name| !names.contains(&name.as_str())) {
+            let unknown = printable(unknown);
+            return Err(CliError::unusable(format!("there is no fill `{unknown}`: give some of {}", names.join(", "))));
+        }
+        let wanted = |case: &Case| self.fills.is_empty() || self.fills.iter().any(|name| name == case.name);
+        cases.retain(wanted);
+        let request = Request { frames: self.frames, ..Request::default() };
+        Ok(Plan { request, cases, fovea: self.inpainting.fovea })
+    }
+}
+
+/// Writes the four files; the page last, so that where there is one, the others are there too.
+fn write(out: &Path, document: &Document) -> Result<(), CliError> {
+    let failed = |error: serde_json::Error| CliError::Failed(error.to_string());
+    let json = serde_json::to_string_pretty(document).map_err(failed)? + "\n";
+    let index = export::index(document).map_err(failed)?;
+    for (name, text) in [
+        ("fills.csv", csv::csv(document)),
+        ("fills.json", json),
+        ("index.json", index),
+        ("fills.html", page::html(document)),
+    ] {
+        let path = out.join(name);
+        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,143 @@
+//! What is put into holes, as the command line means it: a rung of the core's ladder, or inpainting on top of its richest one.
+
+use galpix_core::fill::Rung;
+
+pub use self::stage::Inpainter;
+pub use galpix_core::inpaint::validity::Gamma;
+
+mod stage;
+
+/// Which picture inpainting makes of a hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// Push-pull: smooth colour from all around.
+    PushPull,
+    /// Push-pull of colour and of the statistics of texture, and a texture of those statistics.
+    Metamer,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::PushPull, Self::Metamer];
+}
+
+/// Inpainting: what it makes, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Inpaint {
+    /// The picture.
+    pub kind: Kind,
+    /// The weight of partial knowledge.
+    pub gamma: Gamma,
+    /// Whether what is nearer than a hole is kept out of it.
+    pub depth_aware: bool,
+    /// The radius in pixels of a disc in the middle of the display inside of which nothing is inpainted.
+    pub fovea: Option<u32>,
+}
+
+impl Inpaint {
+    /// A kind with its usual gamma, depth aware, everywhere.
+    #[must_use]
+    pub const fn new(kind: Kind) -> Self {
+        let gamma = match kind {
+            Kind::PushPull => Gamma::Zero,
+            Kind::Metamer => Gamma::Half,
+        };
+        Self { kind, gamma, depth_aware: true, fovea: None }
+    }
+}
+
+/// What is put into holes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Fill {
+    /// What the core's ladder puts there.
+    Rung(Rung),
+    /// What the richest rung puts there, inpainted in the frame in which the hole opens.
+    Inpaint(Inpaint),
+}
+
+impl Default for Fill {
+    fn default() -> Self {
+        Self::Rung(Rung::default())
+    }
+}
+
+impl From<Rung> for Fill {
+    fn from(rung: Rung) -> Self {
+        Self::Rung(rung)
+    }
+}
+
+impl From<Kind> for Fill {
+    fn from(kind: Kind) -> Self {
+        Self::Inpaint(Inpaint::new(kind))
+    }
+}
+
+impl Fill {
+    /// One of each name, from cheap to rich.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let inpainted = Kind::ALL.map(Self::from);
+        Rung::ALL.into_iter().map(Self::from).chain(inpainted).collect()
+    }
+
+    /// The name on the command line and in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Rung(rung) => rung.name(),
+            Self::Inpaint(Inpaint { kind: Kind::PushPull, .. }) => "push-pull",
+            Self::Inpaint(Inpaint { kind: Kind::Metamer, .. }) => "metamer",
+        }
+    }
+
+    /// The rung of the core's ladder that a frame is made with.
+    #[must_use]
+    pub const fn rung(self) -> Rung {
+        match self {
+            Self::Rung(rung) => rung,
+            Self::Inpaint(_) => Rung::Extend,
+        }
+    }
+
+    /// What follows each frame.
+    #[must_use]
+    pub const fn inpaint(self) -> Option<Inpaint> {
+        match self {
+            Self::Rung(_) => None,
+            Self::Inpaint(inpaint) => Some(inpaint),
+        }
+    }
+}
+
+/// Whether a cell of the display lies within the disc of this radius around its middle.
+#[must_use]
+pub fn in_fovea(fovea: Option<u32>, cell: usize, width: usize, height: usize) -> bool {
+    // From the middle in half cells, so that it lies between cells where a side is even.
+    let apart = |at: usize, length: usize| (2 * at as i64 + 1 - length as i64).pow(2);
+    let Some(radius) = fovea else { return false };
+    apart(cell % width, width) + apart(cell / width, height) <= (2 * i64::from(radius)).pow(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fovea_is_a_disc_in_the_middle() {
+        let inside: Vec<usize> = (0..25).filter(|&cell| in_fovea(Some(1), cell, 5, 5)).collect();
+        assert_eq!(inside, [7, 11, 12, 13, 17]);
+        assert!((0..25).all(|cell| !in_fovea(None, cell, 5, 5)));
+        assert_eq!((0..16).filter(|&cell| in_fovea(Some(1), cell, 4, 4)).count(), 4);
+    }
+
+    #[test]
+    fn every_fill_has_a_name_of_its_own_and_inpainting_stands_on_the_richest_rung() {
+        let names: std::collections::HashSet<&str> = Fill::all().into_iter().map(Fill::name).collect();
+        assert_eq!(names.len(), 6 + Kind::ALL.len());
+        for fill in Fill::all() {
+            assert_eq!(fill.inpaint().is_some(), !Rung::ALL.iter().any(|rung| rung.name() == fill.name()));
+            assert!(fill.inpaint().is_none() || fill.rung() == Rung::Extend);
+        }
+    }
+}

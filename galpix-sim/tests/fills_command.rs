@@ -1,0 +1,120 @@
+//! `galpix fills` as a user or a script meets it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn galpix(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
+    command.current_dir(folder).arg("fills").args(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+fn picture(path: &Path) -> image::RgbImage {
+    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
+}
+
+#[test]
+fn page_values_and_pictures_say_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = galpix(folder.path(), &["crossing", "still", "--frames", "2", "--out", "here/deep"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout).lines().last(), Some("here/deep/fills.html"));
+    let out = folder.path().join("here/deep");
+    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let json = |name: &str| serde_json::from_str::<Value>(&read(name)).unwrap();
+    let (document, index, csv, page) = (json("fills.json"), json("index.json"), read("fills.csv"), read("fills.html"));
+    assert_eq!(document["nothing_disoccluded"].as_array().unwrap().as_slice(), ["still"]);
+    let source = &document["sources"][0];
+    let fills = source["fills"].as_array().unwrap();
+
+    // A line for each fill and frame, one for all its frames.
+    let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    assert_eq!(csv.lines().count(), 1 + fills.len() * 3);
+    assert!(csv.lines().all(|line| line.split(',').count() == columns.len()));
+
+    // The page needs nothing else, and shows the truth, the warped picture and each fill.
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
+    assert_eq!(page.matches("src=").count(), page.matches("src=\"data:image/png;base64,").count());
+    assert_eq!(page.matches("<img ").count(), fills.len() + 2);
+    assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
+    assert_eq!(page.matches("<tr><td").count(), fills.len());
+
+    // The pictures: those that the index lists, the mask as large as the document says, and what no mask covers is the same in all.
+    let mut listed = 0;
+    for (frame, cells) in
+        index["sources"][0]["frames"].as_array().unwrap().iter().zip(source["cells"].as_array().unwrap())
+    {
+        let at = |name: &str| picture(&out.join(frame[name].as_str().unwrap()));
+        let white = |mask: &image::RgbImage| mask.pixels().filter(|pixel| pixel.0 == [255; 3]).count() as u64;
+        let (truth, mask, all, warped) = (at("truth"), at("mask"), at("mask_all"), at("warped"));
+        assert_eq!(truth.dimensions(), (192, 144));
+        for of in [frame, cells] {
+            assert_eq!(Some(white(&mask)), of["disoccluded"].as_u64());
+            assert_eq!(Some(white(&all)), of["missing"].as_u64());
+        }
+        assert!(all.enumerate_pixels().all(|(x, y, pixel)| pixel.0 == [0; 3] || warped.get_pixel(x, y).0 == [0; 3]));
+        for fill in frame["fills"].as_array().unwrap() {
+            let shown = picture(&out.join(fill["file"].as_str().unwrap()));
+            let outside = all.enumerate_pixels().filter(|(_, _, pixel)| pixel.0 == [0; 3]);
+            let differing = outside.filter(|(x, y, _)| shown.get_pixel(*x, *y) != warped.get_pixel(*x, *y)).count();
+            // A bullet fill is a galpixel: it may win a cell that one of the update would have had.
+            assert!(differing < 60, "{}: {differing} cells differ outside of the mask", fill["name"]);
+            listed += 1;
+        }
+    }
+    assert_eq!(listed, 2 * fills.len());
+}
+
+#[test]
+fn one_document_and_only_the_fills_that_were_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments =
+        ["fovea", "--fills", "extend,push-pull,push-pull-classic", "--gamma", "1", "--fovea", "60", "--json"];
+    let output = galpix(folder.path(), &arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none(), "without --out nothing is written");
+    let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
+    assert_eq!(document["fovea"], 60);
+    let fills = document["sources"][0]["fills"].as_array().unwrap();
+    let said = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
+    assert_eq!(said("name"), "\"extend\" \"push-pull-classic\" \"push-pull\"");
+    assert_eq!(said("gamma"), "null \"0\" \"1\"");
+    assert_eq!(said("depth_aware"), "null false true");
+    for fill in fills {
+        assert!(fill["time"]["x_copy"].as_f64().unwrap() > 0.0);
+        assert_eq!(fill["frames"].as_array().unwrap().len(), 3);
+    }
+}
+
+#[test]
+fn what_cannot_be_used_is_refused_before_anything_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("file"), "in the way").unwrap();
+    for (arguments, words) in [
+        (["crossing", "nonsense"].as_slice(), ["nonsense", "galpix scenes"].as_slice()),
+        (&["crossing", "./absent/capture.toml"], &["absent/capture.toml"]),
+        (&["crossing", "--fills", "extend,paint"], &["`paint`", "push-pull"]),
+        (&["crossing", "--gamma", "0.7"], &["gamma", "1/2"]),
+        (&["crossing", "--fovea", "0"], &["fovea"]),
+        (&["crossing", "--frames", "0"], &["frames"]),
+        (&["crossing", "--out", "file/below"], &["cannot be written", "--out"]),
+    ] {
+        let output = galpix(folder.path(), arguments);
+        let sentence = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+        assert!(sentence.starts_with("galpix: ") && sentence.lines().count() == 1, "{arguments:?}: {sentence:?}");
+        for word in words {
+            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
+        }
+        let entries: Vec<_> =
+            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!(entries, ["file"], "{arguments:?}");
+    }
+}
