@@ -129,6 +129,8 @@ step_clippy() {
     on clippy lm3s6965evb "-- -D warnings" "$OLED_TARGET"
     on clippy lm3s6965evb "--no-default-features --features probe -- -D warnings" "$OLED_TARGET"
     on clippy vexpress-a9 "-- -D warnings" "$LCD_TARGET"
+    on clippy lm3s6965evb "--features push-pull -- -D warnings" "$OLED_TARGET"
+    on clippy vexpress-a9 "--features push-pull -- -D warnings" "$LCD_TARGET"
 }
 
 step_build() {
@@ -140,13 +142,20 @@ step_build() {
     boards
 }
 
-# The programs of the boards with a panel, and what they take of flash and RAM. A program of no size was linked without
+# The programs of the boards with a panel, each without and with push-pull, and what they take of flash and RAM. A program of no size was linked without
 # its linker script.
 boards() {
-    on build lm3s6965evb --release "$OLED_TARGET"
-    on build vexpress-a9 --release "$LCD_TARGET"
-    cargo run --locked --quiet -p galpix-check -- size "target/$OLED_TARGET/release/lm3s6965evb" \
-        "target/$LCD_TARGET/release/vexpress-a9"
+    local board target programs=()
+    for board in lm3s6965evb vexpress-a9; do
+        target="$OLED_TARGET"
+        [ "$board" = lm3s6965evb ] || target="$LCD_TARGET"
+        programs+=("target/$target/release/$board" "target/$target/release/$board-push-pull")
+        # Under the same name as the other one: it is put aside.
+        on build "$board" "--release --features push-pull" "$target"
+        cp "target/$target/release/$board" "target/$target/release/$board-push-pull"
+        on build "$board" --release "$target"
+    done
+    cargo run --locked --quiet -p galpix-check -- size "${programs[@]}"
 }
 
 # The tool that talks to the boards in the emulator: part of the workspace above, for it needs the simulator.

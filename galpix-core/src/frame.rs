@@ -98,6 +98,20 @@ impl Inpainting<'_> {
     pub const fn classic() -> Self {
         Self { rule: Rule { gamma: Gamma::Zero, threshold: u32::MAX }, quads: false, mask: &[] }
     }
+
+    /// Push-pull in a map, whose holes have the depth that they are to be filled at.
+    pub(crate) fn fill<L: Layout, B: Budget<L>, V: OfGalpixel<L>>(
+        &self,
+        map: &mut Galpixmap<'_, L, B>,
+        work: Work,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32 {
+        let mut picture = Uncovered::<L, B, V>::new(map, self.mask);
+        match work {
+            Work::Skipping => push_pull::sparse(&mut picture, pyramid, &self.rule),
+            Work::Constant => push_pull::dense(&mut picture, pyramid, &self.rule),
+        }
+    }
 }
 
 /// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices. Lent to
@@ -166,11 +180,7 @@ impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
         pyramid: &mut Pyramid<'_, V>,
     ) -> u32 {
         self.lay_background(settings, inpainting);
-        let mut picture = Uncovered::<L, B, V>::new(&mut self.front, inpainting.mask);
-        match settings.work {
-            Work::Skipping => push_pull::sparse(&mut picture, pyramid, &inpainting.rule),
-            Work::Constant => push_pull::dense(&mut picture, pyramid, &inpainting.rule),
-        }
+        inpainting.fill(&mut self.front, settings.work, pyramid)
     }
 
     /// Fills what the last step uncovered by metamers: as [`Self::inpaint`], with a texture. Of `recipe` the rule and the age are

@@ -13,6 +13,8 @@
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
 
+pub mod below;
+mod block;
 pub mod demand;
 pub mod features;
 pub mod levels;

@@ -18,9 +18,11 @@
 use crate::edge;
 use crate::error::SetupError;
 use crate::fill::RowFill;
-use crate::frame::{Scratch, Settings};
+use crate::frame::{Inpainting, Scratch, Settings};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
+use crate::inpaint::map::OfGalpixel;
+use crate::inpaint::pyramid::Pyramid;
 use crate::layout::Layout;
 use crate::propagate::thresholds;
 use crate::record::Record;
@@ -125,6 +127,18 @@ impl<'p, L: Layout, B: Budget<L>> Rolling<'p, L, B> {
         }
         self.frame = self.frame.wrapping_add(1);
         tally
+    }
+
+    /// Fills what the last step uncovered, by push-pull: how many cells. As [`crate::frame::Controller::inpaint`] does it with the same
+    /// `settings` and without quads, bit by bit: of the map before nothing is left to draw them from, and the depth that the
+    /// rung gave the holes serves. [`Inpainting::quads`] does not matter.
+    pub fn inpaint<V: OfGalpixel<L>>(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32 {
+        inpainting.fill(&mut self.map, settings.work, pyramid)
     }
 
     /// Makes a row of the window empty, if there is one.

@@ -1,8 +1,10 @@
 //! One map or two: what shows the same pictures with different memory.
 
-use galpix_core::frame::{Controller, Settings};
+use galpix_core::frame::{Controller, Inpainting, Settings};
 use galpix_core::galpixel::Budget;
 use galpix_core::galpixmap::Galpixmap;
+use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::layout::Layout;
 use galpix_core::rolling::Rolling;
 use galpix_core::tally::Tally;
@@ -16,6 +18,13 @@ pub trait Maps<'p> {
 
     /// Makes the next frame.
     fn step(&mut self, settings: &Settings) -> Tally;
+    /// Fills what it uncovered, by push-pull: how many cells.
+    fn inpaint<V: OfGalpixel<Self::Layout>>(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32;
     /// The map that is shown.
     fn shown(&self) -> &Galpixmap<'p, Self::Layout, Self::Budget>;
     /// The map that is shown, to write an update into.
@@ -30,6 +39,15 @@ impl<'p, L: Layout, B: Budget<L>> Maps<'p> for Controller<'p, L, B> {
 
     fn step(&mut self, settings: &Settings) -> Tally {
         Controller::step(self, settings)
+    }
+
+    fn inpaint<V: OfGalpixel<L>>(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32 {
+        Controller::inpaint(self, settings, inpainting, pyramid)
     }
 
     fn shown(&self) -> &Galpixmap<'p, L, B> {
@@ -51,6 +69,15 @@ impl<'p, L: Layout, B: Budget<L>> Maps<'p> for Rolling<'p, L, B> {
 
     fn step(&mut self, settings: &Settings) -> Tally {
         Rolling::step(self, settings)
+    }
+
+    fn inpaint<V: OfGalpixel<L>>(
+        &mut self,
+        settings: &Settings,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, V>,
+    ) -> u32 {
+        Rolling::inpaint(self, settings, inpainting, pyramid)
     }
 
     fn shown(&self) -> &Galpixmap<'p, L, B> {

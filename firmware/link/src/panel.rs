@@ -3,8 +3,13 @@
 use galpix_core::budget::{Bits, Component, Demand};
 use galpix_core::colour::{Colour, Gray4, Rgb565};
 use galpix_core::error::BudgetError;
-use galpix_core::frame::Settings;
+use galpix_core::frame::{Inpainting, Settings};
 use galpix_core::galpixel::{Fixed, Profile, Static};
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::pyramid::state_words;
+use galpix_core::inpaint::validity::Gamma;
 use galpix_core::layout::{Lanes, Layout};
 use galpix_core::record::{Field, Record, Scale};
 
@@ -35,6 +40,15 @@ pub trait Panel: Profile + Sized {
     /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet hole: all
     /// continue what is beside them.
     const TELLS_SURFACES: bool;
+    /// What push-pull fills in after a frame.
+    type Filling: OfGalpixel<Self::Layout>;
+    /// How.
+    const INPAINTING: Inpainting<'static> = Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero);
+    /// Cells of the pyramid for it, and the words of their states.
+    const PYRAMID: (usize, usize) = {
+        let cells = levels::cells(Self::WIDTH as u32, Self::HEIGHT as u32);
+        (cells, state_words(cells))
+    };
     /// Words of memory for one map.
     const MAP_WORDS: usize = Self::CELLS * Self::RECORD.words();
     /// The display as a value.
@@ -213,6 +227,10 @@ impl Panel for Oled {
     type Layout = OledLayout;
     /// No: that would take 4.5 KiB, and a quarter of the work of a frame.
     const TELLS_SURFACES: bool = false;
+    /// The colour only: the motion stays the one that the ladder gave. In one map no map before is left for quads.
+    type Filling = Tint;
+    const INPAINTING: Inpainting<'static> =
+        Inpainting { quads: false, ..Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero) };
 }
 
 /// What the galpixels of [`Lcd`] carry: x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two
@@ -241,6 +259,7 @@ impl Panel for Lcd {
     const HEIGHT: u16 = 240;
     type Layout = LcdLayout;
     const TELLS_SURFACES: bool = true;
+    type Filling = Moving;
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);

@@ -9,7 +9,8 @@
 //! `bad` there is one, to see that it does.
 //!
 //! The program is never run. `galpix-check machine-code` reads it: in what the `proof_` functions reach there must be
-//! no product, quotient, float or trap, and in each `planted_` function there is one.
+//! no product, quotient, float or trap, and in each `planted_` function there is one. Push-pull, `proof_inpaint_`, multiplies: there
+//! a product may be, and nothing else.
 
 #![no_std]
 #![no_main]
@@ -21,9 +22,12 @@ mod planted;
 use core::hint::black_box;
 
 use galpix_core::budget::{Bits, Demand};
-use galpix_core::frame::{Settings, Work};
+use galpix_core::frame::{Inpainting, Settings, Work};
 use galpix_core::galpixel::{Galpixel, Profile};
 use galpix_core::grid::Wings;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::pyramid::Cell;
+use galpix_core::inpaint::validity::Gamma;
 use galpix_core::layout::{Full, Shaded, Velocity565, VelocityGray4};
 
 /// A panel of up to 512 pixels a side.
@@ -56,12 +60,18 @@ struct Inputs<'m> {
     maps: [&'m mut [u32]; 2],
     scratch: [&'m mut [u32]; 2],
     line: &'m mut [u16],
+    inpainting: Inpainting<'m>,
+    moving: &'m mut [Cell<Moving>],
+    tints: &'m mut [Cell<Tint>],
+    states: &'m mut [u32],
 }
 
 /// Calls everything.
 fn run() {
     let (mut rows, mut window_rows, mut front, mut back) = ([0; 8], [0; 8], [0; 512], [0; 512]);
     let (mut winners, mut edges, mut line) = ([0; 64], [0; 2], [0; 8]);
+    let (mut moving, mut tints, mut states, mask) =
+        ([Cell::default(); 21], [Cell::default(); 21], [0; 2], [u32::MAX; 2]);
     let mut inputs = black_box(Inputs {
         size: [8, 8],
         wings: Wings::NONE,
@@ -74,6 +84,10 @@ fn run() {
         maps: [&mut front, &mut back],
         scratch: [&mut winners, &mut edges],
         line: &mut line,
+        inpainting: Inpainting { mask: &mask, ..Inpainting::for_depth(16, Gamma::Half) },
+        moving: &mut moving,
+        tints: &mut tints,
+        states: &mut states,
     });
     passes::call_all::<VelocityGray4, PanelVelocity>(&mut inputs);
     passes::call_all::<Velocity565, PanelVelocity>(&mut inputs);

@@ -3,11 +3,13 @@
 
 use core::hint::black_box;
 
-use galpix_core::frame::{self, Controller, Scratch, Settings};
+use galpix_core::frame::{self, Controller, Inpainting, Scratch, Settings};
 use galpix_core::galpixel::{Budget, Galpixel, Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::graft::{Grafted, graft};
 use galpix_core::grid::Grid;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::layout::Layout;
 use galpix_core::rolling::Rolling;
 use galpix_core::rounding::Rounding;
@@ -26,7 +28,22 @@ pub fn call_all<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
 }
 
 fn with_two_maps<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
-    let Inputs { size, wings, place, frame, settings, galpixel, rows, maps, scratch, line, .. } = black_box(inputs);
+    let Inputs {
+        size,
+        wings,
+        place,
+        frame,
+        settings,
+        galpixel,
+        rows,
+        maps,
+        scratch,
+        line,
+        inpainting,
+        moving,
+        states,
+        ..
+    } = black_box(inputs);
     let ([front, back], [winners, edges], [x, y]) = (maps, scratch, *place);
     let budget = Static::<P>::new();
     let Ok(grid) = Grid::new(size[0], size[1], *wings, rows) else { return };
@@ -46,12 +63,17 @@ fn with_two_maps<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
     black_box(proof_frame(&front, &mut back, &mut scratch, settings, *frame));
     let Ok(mut controller) = Controller::new(front, back, scratch) else { return };
     black_box(proof_controller(&mut controller, settings));
+    if let Ok(mut pyramid) = Pyramid::new(size[0], size[1], moving, states) {
+        black_box(proof_inpaint_controller(&mut controller, settings, inpainting, &mut pyramid));
+    }
     proof_scan_out(controller.front(), *frame, line);
     black_box(&line);
 }
 
 fn with_one_map<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
-    let Inputs { size, wings, place, frame, settings, rows, window_rows, maps, scratch, .. } = black_box(inputs);
+    let Inputs {
+        size, wings, place, frame, settings, rows, window_rows, maps, scratch, inpainting, tints, states, ..
+    } = black_box(inputs);
     let ([map, window], [winners, edges]) = (maps, scratch);
     let budget = Static::<P>::new();
     let Ok(grid) = Grid::new(size[0], size[1], *wings, rows) else { return };
@@ -60,6 +82,9 @@ fn with_one_map<L: Layout, P: Profile>(inputs: &mut Inputs<'_>) {
     let Ok(window) = Map::<L, _>::over(rolls, budget, window) else { return };
     let Ok(mut rolling) = Rolling::new(map, window, Scratch { winners, edges }) else { return };
     black_box(proof_rolling(&mut rolling, settings));
+    if let Ok(mut pyramid) = Pyramid::new(size[0], size[1], tints, states) {
+        black_box(proof_inpaint_rolling(&mut rolling, settings, inpainting, &mut pyramid));
+    }
     let rounding = settings.rounding;
     black_box(proof_graft(rolling.map_mut(), (place[0], place[1]), black_box(&[0; 8]), rounding, *frame));
 }
@@ -142,6 +167,28 @@ fn proof_controller<L: Layout, B: Budget<L>>(controller: &mut Controller<'_, L, 
 #[inline(never)]
 fn proof_rolling<L: Layout, B: Budget<L>>(rolling: &mut Rolling<'_, L, B>, settings: &Settings) -> Tally {
     rolling.step(settings)
+}
+
+/// Quads and push-pull, sparse and dense, of colours with their motion.
+#[inline(never)]
+fn proof_inpaint_controller<L: Layout, B: Budget<L>>(
+    controller: &mut Controller<'_, L, B>,
+    settings: &Settings,
+    inpainting: &Inpainting<'_>,
+    pyramid: &mut Pyramid<'_, Moving>,
+) -> u32 {
+    controller.inpaint(settings, inpainting, pyramid)
+}
+
+/// Push-pull in one map, sparse and dense, of colours.
+#[inline(never)]
+fn proof_inpaint_rolling<L: Layout, B: Budget<L>>(
+    rolling: &mut Rolling<'_, L, B>,
+    settings: &Settings,
+    inpainting: &Inpainting<'_>,
+    pyramid: &mut Pyramid<'_, Tint>,
+) -> u32 {
+    rolling.inpaint(settings, inpainting, pyramid)
 }
 
 #[inline(never)]

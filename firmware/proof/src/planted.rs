@@ -12,6 +12,7 @@ pub fn call_all(inputs: &mut Inputs<'_>) {
     black_box(planted_divide(*width, NonZeroU32::new(*height).unwrap_or(NonZeroU32::MIN)));
     black_box(planted_float(*width as i32, *height as i32));
     black_box(planted_behind_a_pointer(*width, *height));
+    black_box(planted_inpaint_divide(*width, NonZeroU32::new(*height).unwrap_or(NonZeroU32::MIN)));
     #[cfg(feature = "bad")]
     bad_index(rows, *width as usize);
     black_box(&rows);
@@ -27,6 +28,12 @@ fn planted_multiply(width: u32, height: u32) -> u32 {
 #[inline(never)]
 fn planted_divide(width: u32, height: NonZeroU32) -> u32 {
     width / height
+}
+
+/// A quotient beside a product, of which only the product is allowed in push-pull.
+#[inline(never)]
+fn planted_inpaint_divide(width: u32, height: NonZeroU32) -> u32 {
+    width.wrapping_mul(width) / height
 }
 
 /// A float, an instruction or a helper.

@@ -6,97 +6,19 @@
 //!
 //! Responses themselves are not stored: a hole has none, and everything above sees their means only.
 
+use super::below::Below;
+use super::block::{ACROSS, HALF, LEVELS, Part, halved, pull_up};
 use super::demand::{Base, Demand};
 use super::mean::tie;
 use super::metamer::Scene;
 use super::needs::Needs;
-use super::push_pull::{Rule, Value, pulled};
+use super::push_pull::{Rule, pulled};
 use super::pyramid::{Known, Pyramid, State};
 use super::statistics::{BANDS, Moments};
-use super::steerable::{APRON, Bands, TILE, bands};
+use super::steerable::{APRON, Bands, TILE, bands, row_of};
 use super::tile::{ALL, Row, Surroundings};
 use super::tone::Tone;
 use super::validity::FULL;
-
-/// Columns and rows of a pulled tile.
-const HALF: usize = TILE / 2;
-
-/// Levels of a tile above the cells that it is pulled from.
-const LEVELS: u32 = 4;
-
-/// Columns of level 1 of the tiles of tones that are pulled together.
-const ACROSS: u32 = 8 * HALF as u32;
-
-/// Level 0 of the tones: the picture.
-#[derive(Debug)]
-pub struct Below<'p, P>(pub &'p P);
-
-impl<P: Scene> Below<'_, P> {
-    /// Eight cells of level 1, from `left` on.
-    #[inline(always)]
-    fn line(&self, left: u32, y: u32, rule: &Rule, cells: &mut [Known<Tone>]) {
-        let [width, height] = self.0.size();
-        let top = y << 1;
-        if top >= height {
-            return;
-        }
-        let (mut upper, mut lower) = (Row::default(), Row::default());
-        self.0.row(2 * left, top, &mut upper);
-        if top + 1 < height {
-            self.0.row(2 * left, top + 1, &mut lower);
-        }
-        for ((i, x), to) in (left..width.div_ceil(2)).enumerate().zip(cells) {
-            let (left, right) = (2 * i, 2 * i + 1);
-            let [a, b, c, d] = [upper.depths[left], upper.depths[right], lower.depths[left], lower.depths[right]];
-            let depth = a.max(b).max(c.max(d)) as u32;
-            let known = upper.known[left] & upper.known[right] & lower.known[left] & lower.known[right];
-            let inside = 2 * x + 1 < width && top + 1 < height;
-            *to = if inside && known != 0 && depth - a.min(b).min(c.min(d)) as u32 <= rule.threshold {
-                let mut tone = Tone { channels: [0; 3], source: self.0.source(2 * x, top) };
-                for ((to, upper), lower) in tone.channels.iter_mut().zip(&upper.channels).zip(&lower.channels) {
-                    let sum = upper[left] + upper[right] + lower[left] + lower[right];
-                    *to = (sum + 1 + tie(x, y, 1) as i16) >> 2;
-                }
-                Known { validity: FULL, depth, value: tone }
-            } else {
-                let child =
-                    |x: u32, y: u32| if x < width && y < height { self.0.known(x, y) } else { Known::default() };
-                let (x0, x1) = (2 * x, 2 * x + 1);
-                pulled(&[child(x0, top), child(x1, top), child(x0, top + 1), child(x1, top + 1)], rule, tie(x, y, 1))
-            };
-        }
-    }
-}
-
-impl<P: Scene> Base<Tone> for Below<'_, P> {
-    const LEVELS: u32 = LEVELS;
-
-    /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture are long in
-    /// memory: that is why they are read far along before the next one is.
-    #[inline(never)]
-    fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, rule: &Rule, x: u32, y: u32) {
-        let (start, top) = (x / ACROSS * ACROSS, y >> 3 << 3);
-        let end = (start + ACROSS).min(pyramid.levels().level(1).width);
-        let tiles = || (start..end).step_by(HALF);
-        for y in top..top + HALF as u32 {
-            for left in tiles() {
-                let mut cells: Part<Tone, 8> = [Known::default(); 8];
-                self.line(left, y, rule, &mut cells);
-                keep(pyramid, 1, (left, y), 8, &cells);
-            }
-        }
-        for left in tiles() {
-            let mut first: Part<Tone, 64> = [Known::default(); 64];
-            for (line, y) in first.chunks_exact_mut(8).zip(top..) {
-                for (cell, x) in line.iter_mut().zip(left..) {
-                    *cell = pyramid.known(pyramid.index(1, x, y));
-                }
-            }
-            let second: Part<Tone, 16> = halved(&first, 4, (left >> 1, top >> 1), 2, rule);
-            pull_up(pyramid, rule, (left, top), &second);
-        }
-    }
-}
 
 /// Level 0 of the moments: the responses of a level of the tones.
 #[derive(Debug)]
@@ -161,7 +83,7 @@ impl Workspace {
         Self {
             surroundings: Surroundings::new(),
             of_channels: [[[[0; TILE]; TILE]; 2]; 3],
-            quads: Quads { means: [[[0; HALF]; HALF]; BANDS], squares: [[[0; HALF]; HALF]; BANDS] },
+            quads: Quads { means: [[0; QUADS]; BANDS], squares: [[0; QUADS]; BANDS] },
         }
     }
 }
@@ -175,31 +97,33 @@ impl Default for Workspace {
 /// The moments of four cells each of a tile.
 #[derive(Debug)]
 struct Quads {
-    means: [[[i16; HALF]; HALF]; BANDS],
-    squares: [[[u32; HALF]; HALF]; BANDS],
+    means: [[i16; QUADS]; BANDS],
+    squares: [[u32; QUADS]; BANDS],
 }
+
+const QUADS: usize = HALF * HALF;
+
+/// What is added before a sum of four is divided, by the tie of the first one of a tile.
+const UP: [[i16; QUADS]; 2] = {
+    let mut up = [[0; QUADS]; 2];
+    let mut at = 0;
+    while at < QUADS {
+        let odd = ((at % HALF) ^ (at / HALF)) & 1;
+        up[0][at] = 1 + odd as i16;
+        up[1][at] = 2 - odd as i16;
+        at += 1;
+    }
+    up
+};
 
 impl Quads {
     /// Means of four that weigh the same; `tie` is that of the first one.
     #[inline(always)]
     fn pull(&mut self, of_channels: &[Bands; 3], tie: u32) {
-        let of_bands = of_channels.as_flattened();
-        for ((means, squares), band) in self.means.iter_mut().zip(&mut self.squares).zip(of_bands) {
-            for (y, (means, squares)) in means.iter_mut().zip(squares).enumerate() {
-                let (upper, lower) = (&band[2 * y], &band[2 * y + 1]);
-                // Down the columns first, where neighbours lie side by side.
-                let (mut sums, mut sums_of_squares) = ([0; TILE], [0; TILE]);
-                for x in 0..TILE {
-                    sums[x] = upper[x] + lower[x];
-                    let (a, b) = (i32::from(upper[x]), i32::from(lower[x]));
-                    sums_of_squares[x] = a * a + b * b;
-                }
-                for x in 0..HALF {
-                    let up = 1 + ((x as u32 ^ y as u32 ^ tie) & 1);
-                    means[x] = (sums[2 * x] + sums[2 * x + 1] + up as i16) >> 2;
-                    squares[x] = ((sums_of_squares[2 * x] + sums_of_squares[2 * x + 1]) as u32 + up) >> 2;
-                }
-            }
+        let up = &UP[(tie & 1) as usize];
+        for ((means, squares), band) in self.means.iter_mut().zip(&mut self.squares).zip(of_channels.as_flattened()) {
+            let (even, odd) = band.split_at(HALF);
+            pull_band(even.as_flattened(), odd.as_flattened(), up, means, squares);
         }
     }
 
@@ -207,15 +131,12 @@ impl Quads {
     fn moments(&self, x: usize, y: usize) -> Moments {
         let mut moments = Moments::default();
         for band in 0..BANDS {
-            moments.means[band] = self.means[band][y][x];
-            moments.squares[band] = self.squares[band][y][x];
+            moments.means[band] = self.means[band][y * HALF + x];
+            moments.squares[band] = self.squares[band][y * HALF + x];
         }
         moments
     }
 }
-
-/// Cells of a level of a pulled tile, or of its quarters.
-type Part<V, const CELLS: usize> = [Known<V>; CELLS];
 
 impl<P: Scene> Responses<'_, '_, '_, P> {
     /// Pulls the tile that begins at `left`, `top` of level 1.
@@ -262,7 +183,7 @@ impl<P: Scene> Responses<'_, '_, '_, P> {
                         }
                         let mut responses = [0; BANDS];
                         for (response, band) in responses.iter_mut().zip(of_channels.as_flattened()) {
-                            *response = band[row + dy][column + dx];
+                            *response = band[row_of(row + dy)][column + dx];
                         }
                         let depth = surroundings.depths[row + dy + APRON][column + dx + APRON] as u32;
                         Known { validity: (four >> at & 1) * FULL, depth, value: Moments::of(responses) }
@@ -285,6 +206,21 @@ fn depth_of(surroundings: &Surroundings, x: usize, y: usize) -> u32 {
     let (column, row) = (2 * x + APRON, 2 * y + APRON);
     let [upper, lower] = [&surroundings.depths[row], &surroundings.depths[row + 1]];
     upper[column].max(upper[column + 1]).max(lower[column].max(lower[column + 1])) as u32
+}
+
+/// Means of the responses of a band and of their squares, from the even and the odd rows of a tile.
+#[inline(never)]
+fn pull_band(even: &[i16], odd: &[i16], up: &[i16; QUADS], means: &mut [i16; QUADS], squares: &mut [u32; QUADS]) {
+    // Down the columns first, where neighbours lie side by side; rows so long that they become vector code.
+    let (mut sums, mut sums_of_squares) = ([0; 2 * QUADS], [0; 2 * QUADS]);
+    for (((sum, square), &a), &b) in sums.iter_mut().zip(&mut sums_of_squares).zip(even).zip(odd) {
+        *sum = a + b;
+        *square = i32::from(a) * i32::from(a) + i32::from(b) * i32::from(b);
+    }
+    for at in 0..QUADS {
+        means[at] = (sums[2 * at] + sums[2 * at + 1] + up[at]) >> 2;
+        squares[at] = (sums_of_squares[2 * at] + sums_of_squares[2 * at + 1] + i32::from(up[at])) as u32 >> 2;
+    }
 }
 
 /// Pulls a tile that is known throughout, of one surface, and within the picture: of level 1 only what is asked for is put together.
@@ -312,61 +248,16 @@ fn even_tile(
         let (x, y) = (2 * i, 2 * j);
         for band in 0..BANDS {
             let (means, squares) = (&quads.means[band], &quads.squares[band]);
-            let sum = means[y][x] + means[y][x + 1] + means[y + 1][x] + means[y + 1][x + 1];
+            let (upper, lower) = (y * HALF + x, (y + 1) * HALF + x);
+            let sum = means[upper] + means[upper + 1] + means[lower] + means[lower + 1];
             to.value.means[band] = (sum + up as i16) >> 2;
-            let sum = squares[y][x] + squares[y][x + 1] + squares[y + 1][x] + squares[y + 1][x + 1];
+            let sum = squares[upper] + squares[upper + 1] + squares[lower] + squares[lower + 1];
             to.value.squares[band] = (sum + up) >> 2;
         }
         to.validity = FULL;
         to.depth = depth(x, y).max(depth(x + 1, y)).max(depth(x, y + 1).max(depth(x + 1, y + 1)));
     }
     pull_up(pyramid, rule, (left, top), &second);
-}
-
-/// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
-#[inline(always)]
-fn keep<V: Value>(store: &mut Pyramid<'_, V>, level: u32, (left, top): (u32, u32), side: usize, cells: &[Known<V>]) {
-    for (row, y) in cells.chunks_exact(side).zip(top..) {
-        let first = store.index(level, left, y);
-        let width = store.levels().level(level).width;
-        if first != usize::MAX {
-            for ((cell, index), _) in row.iter().zip(first..).zip(left..width) {
-                store.set(index, State::Pulled, *cell);
-            }
-        }
-    }
-}
-
-/// The level above a tile's, which has `2 side` x `2 side` cells.
-#[inline(always)]
-fn halved<V: Value, const CELLS: usize>(
-    cells: &[Known<V>],
-    side: usize,
-    (left, top): (u32, u32),
-    level: u32,
-    rule: &Rule,
-) -> Part<V, CELLS> {
-    let mut halved = [Known::default(); CELLS];
-    for (at, to) in halved.iter_mut().enumerate() {
-        let (i, j) = (at % side, at / side);
-        let first = 2 * (2 * j * side + i);
-        let (Some([a, b]), Some([c, d])) =
-            (cells.get(first..first + 2), cells.get(first + 2 * side..first + 2 * side + 2))
-        else {
-            continue;
-        };
-        let tie = tie(left + i as u32, top + j as u32, level);
-        let farthest = a.depth.max(b.depth).max(c.depth.max(d.depth));
-        let nearest = a.depth.min(b.depth).min(c.depth.min(d.depth));
-        if a.validity & b.validity & c.validity & d.validity == FULL && farthest - nearest <= rule.threshold {
-            to.validity = FULL;
-            to.depth = farthest;
-            to.value = V::plain_mean(&[a.value, b.value, c.value, d.value], tie);
-        } else {
-            *to = pulled(&[*a, *b, *c, *d], rule, tie);
-        }
-    }
-    halved
 }
 
 impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
@@ -378,15 +269,4 @@ impl<P: Scene> Base<Moments> for Responses<'_, '_, '_, P> {
         let (left, top) = (x >> 3 << 3, y >> 3 << 3);
         self.tile(pyramid, left, top, rule);
     }
-}
-
-/// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of level 1.
-#[inline(always)]
-fn pull_up<V: Value>(store: &mut Pyramid<'_, V>, rule: &Rule, (left, top): (u32, u32), second: &Part<V, 16>) {
-    let place = |level: u32| (left >> (level - 1), top >> (level - 1));
-    keep(store, 2, place(2), 4, second);
-    let third: Part<V, 4> = halved(second, 2, place(3), 3, rule);
-    keep(store, 3, place(3), 2, &third);
-    let fourth: Part<V, 1> = halved(&third, 1, place(4), 4, rule);
-    keep(store, 4, place(4), 1, &fourth);
 }

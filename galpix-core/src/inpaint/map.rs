@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::mean::tie;
 use super::paint::{Moving, Tint};
-use super::push_pull::{Picture, RUN, Value};
+use super::push_pull::{Picture, RUN, Value, below, each};
 use super::pyramid::{DEPTH_BITS, Known};
 use super::validity::FULL;
 use crate::galpixel::{Budget, Class};
@@ -78,6 +78,22 @@ impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, 
         Self { map, mask, value: PhantomData }
     }
 
+    /// What is known of a cell with this class and depth.
+    #[inline(always)]
+    fn known_of(&self, cell: u32, key: u32) -> Known<V> {
+        let bits = u32::from(self.map.record().depth().bits);
+        let class = self.map.class_of(key);
+        if class == Class::Empty as u32 {
+            return Known::default();
+        }
+        let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
+        if class == Class::Galpixel as u32 {
+            Known { validity: FULL, depth, value: V::of(self.map.colour(cell), cell) }
+        } else {
+            Known { validity: 0, depth, value: V::default() }
+        }
+    }
+
     #[inline(always)]
     pub(super) fn is_asked_for(&self, cell: u32) -> bool {
         self.mask.is_empty()
@@ -101,18 +117,26 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
     #[inline(always)]
     fn known(&self, x: u32, y: u32) -> Known<V> {
         let Some(cell) = self.map.grid().cell(x as i32, y as i32) else { return Known::default() };
-        let key = self.map.key_at(cell).unwrap_or(u32::MAX);
-        let bits = u32::from(self.map.record().depth().bits);
-        let class = self.map.class_of(key);
-        if class == Class::Empty as u32 {
-            return Known::default();
-        }
-        let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
-        if class == Class::Galpixel as u32 {
-            Known { validity: FULL, depth, value: V::of(self.map.colour(cell), cell) }
-        } else {
-            Known { validity: 0, depth, value: V::default() }
-        }
+        self.known_of(cell, self.map.key_at(cell).unwrap_or(u32::MAX))
+    }
+
+    #[inline(always)]
+    fn block(&self, x: u32, y: u32) -> [Known<V>; 4] {
+        let grid = self.map.grid();
+        let (left, top) = (x << 1, y << 1);
+        let inside = left + 1 < grid.width();
+        let (Some(upper), Some(lower), true) = (grid.row(top as i32), grid.row(top as i32 + 1), inside) else {
+            return each(below(x, y), |(x, y)| {
+                if x < grid.width() && y < grid.height() { self.known(x, y) } else { Known::default() }
+            });
+        };
+        let two = |cell: u32| {
+            let mut keys = self.map.keys(cell as usize..cell as usize + 2);
+            let mut next = || keys.next().unwrap_or(u32::MAX);
+            [self.known_of(cell, next()), self.known_of(cell + 1, next())]
+        };
+        let ([a, b], [c, d]) = (two(upper + left), two(lower + left));
+        [a, b, c, d]
     }
 
     #[inline(always)]
@@ -139,7 +163,7 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         for (i, (depth, _)) in run.iter_mut().enumerate() {
             let [a, b, c, d] = [upper_keys[2 * i], upper_keys[2 * i + 1], lower_keys[2 * i], lower_keys[2 * i + 1]];
             all |= a | b | c | d;
-            let [a, b, c, d] = [a, b, c, d].map(|depth| pyramid_depth(depth, bits) as i32);
+            let [a, b, c, d] = each([a, b, c, d], |depth| pyramid_depth(depth, bits) as i32);
             let (farthest, nearest) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
             uneven |= u32::from((farthest - nearest) as u32 > threshold);
             *depth = farthest as u32;

@@ -14,18 +14,26 @@ pub const MOST: u32 = 64;
 const SHIFT: u32 = 37;
 const SHORT_SHIFT: u32 = 22;
 
-const fn reciprocals(shift: u32) -> [u64; MOST as usize + 1] {
+const RECIPROCALS: [u64; MOST as usize + 1] = {
     let mut table = [0; MOST as usize + 1];
     let mut s = 1;
     while s < table.len() {
-        table[s] = (1u64 << shift).div_ceil(s as u64);
+        table[s] = (1u64 << SHIFT).div_ceil(s as u64);
         s += 1;
     }
     table
-}
+};
 
-const RECIPROCALS: [u64; MOST as usize + 1] = reciprocals(SHIFT);
-const SHORT_RECIPROCALS: [u64; MOST as usize + 1] = reciprocals(SHORT_SHIFT);
+/// A sum below `1024 s` times one of these stays below 2^32: a processor without a long product does not need one.
+const SHORT_RECIPROCALS: [u32; MOST as usize + 1] = {
+    let mut table = [0; MOST as usize + 1];
+    let mut s = 1;
+    while s < table.len() {
+        table[s] = (1u32 << SHORT_SHIFT).div_ceil(s as u32);
+        s += 1;
+    }
+    table
+};
 
 /// `sum / weight` to the nearest; halves go up if `tie` is 1 and down if it is 0. `weight` 1 to 64, `sum` below 2^31 - 64.
 #[inline(always)]
@@ -41,7 +49,9 @@ pub fn divided(sum: u32, weight: u32, tie: u32) -> u32 {
 pub fn divided3(sums: [u32; 3], weight: u32, tie: u32) -> [u32; 3] {
     let reciprocal = SHORT_RECIPROCALS.get(weight as usize).copied().unwrap_or_default();
     let bias = bias(weight, tie);
-    sums.map(|sum| ((u64::from(sum + bias) * reciprocal) >> SHORT_SHIFT) as u32)
+    let quotient = |sum: u32| (sum + bias).wrapping_mul(reciprocal) >> SHORT_SHIFT;
+    let [first, second, third] = sums;
+    [quotient(first), quotient(second), quotient(third)]
 }
 
 /// What is added before the fraction is dropped.

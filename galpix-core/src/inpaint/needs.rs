@@ -1,6 +1,6 @@
 //! Which cells of which levels are asked for: a bit for each, in tiles, so that what lies together comes together.
 
-use super::levels::Levels;
+use super::levels::{Levels, MOST};
 use crate::error::SetupError;
 
 /// Columns and rows of a tile.
@@ -14,6 +14,8 @@ pub type Tile = [u16; SIDE as usize];
 pub struct Needs<'s> {
     levels: Levels,
     last: u32,
+    /// The first tile of each level.
+    starts: [usize; MOST + 1],
     tiles: &'s mut [Tile],
 }
 
@@ -43,13 +45,19 @@ impl<'s> Needs<'s> {
             return Err(SetupError::TooShort { plane: "needs", need, have });
         };
         tiles.fill(Tile::default());
-        Ok(Self { levels, last, tiles })
+        let mut starts = [0; MOST + 1];
+        let mut start = 0;
+        for (level, to) in (0..).zip(&mut starts) {
+            *to = start;
+            let size = levels.level(level);
+            start += (columns(size.width) * columns(size.height)) as usize;
+        }
+        Ok(Self { levels, last, starts, tiles })
     }
 
-    /// The first tile of a level.
+    #[inline(always)]
     fn start(&self, level: u32) -> usize {
-        let size = self.levels.level(0);
-        if level == 0 { 0 } else { tiles(size.width, size.height, level - 1) }
+        self.starts.get(level as usize).copied().unwrap_or(usize::MAX)
     }
 
     /// Asks for a cell of a level; for none beyond it.

@@ -3,7 +3,7 @@
 //! Each cell's noise follows from its coordinates, its level and a seed alone: so any part of it can be made in any order,
 //! on any machine, with the same bits, and it can move with a surface (section 3.4.1 of the paper).
 
-use super::steerable::{APRON, Bands, COLUMNS, Cells, LARGEST, LARGEST_RESPONSE, ROWS, TILE, bands};
+use super::steerable::{APRON, Bands, COLUMNS, Cells, LARGEST, LARGEST_RESPONSE, ROWS, TILE, bands, row_of};
 
 /// To what the bands of the noise are scaled before they take the deviation of what is missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Hash)]
@@ -157,7 +157,7 @@ impl Tiles {
                 bands(cells, of_channel);
             }
         }
-        let (x, y) = (x as usize % TILE, y as usize % TILE);
+        let (x, y) = (x as usize % TILE, row_of(y as usize % TILE));
         let mut responses = [[0; 2]; 3];
         for (responses, of_channel) in responses.iter_mut().zip(of_channels.iter()) {
             *responses = [of_channel[0][y][x], of_channel[1][y][x]];

@@ -1,7 +1,7 @@
 //! What push-pull takes means of: colours, and the motion that goes with them.
 
 use super::mean::divided3;
-use super::push_pull::Value;
+use super::push_pull::{Value, each};
 use crate::colour::Colour;
 
 /// Bits of a channel in a pyramid: eight, and two of a fraction.
@@ -15,6 +15,9 @@ pub const FRACTION_BITS: u32 = CHANNEL_BITS - 8;
 pub struct Tint(u32);
 
 impl Tint {
+    /// No light in any channel.
+    pub const BLACK: Self = Self(0);
+
     /// The channels of a stored colour, each moved up to ten bits.
     #[inline(always)]
     #[must_use]
@@ -54,7 +57,7 @@ impl Tint {
     }
 }
 
-/// The first and the third channel, which have room for sums between them.
+/// The first and the third channel, which have room for sums of four between them.
 const OUTER: u32 = 0x3ff0_03ff;
 
 /// A one in each of these two.
@@ -63,16 +66,22 @@ const OUTER_ONES: u32 = 0x0010_0001;
 /// The second channel, moved down.
 const MIDDLE: u32 = 0x3ff;
 
+/// The first and the third channel moved apart: sums by weights up to 64 have sixteen bits each.
+#[inline(always)]
+const fn apart(tint: u32) -> u32 {
+    tint >> 4 & 0x03ff_0000 | tint & 0x3ff
+}
+
 impl Value for Tint {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
-        let (mut outer, mut middle) = (0u64, 0);
+        let (mut outer, mut middle) = (0, 0);
         for (value, &weight) in values.iter().zip(weights) {
-            outer += u64::from(value.0 & OUTER) * u64::from(weight);
+            outer += apart(value.0) * weight;
             middle += (value.0 >> CHANNEL_BITS & MIDDLE) * weight;
         }
         let weight = weights.iter().sum();
-        let sums = [(outer >> (2 * CHANNEL_BITS)) as u32, middle, outer as u32 & ((1 << (2 * CHANNEL_BITS)) - 1)];
+        let sums = [outer >> 16, middle, outer & 0xffff];
         Self::new(divided3(sums, weight, tie))
     }
 
@@ -88,11 +97,11 @@ impl Value for Tint {
     #[inline(always)]
     fn linear(values: &[Self; 4], tie: u32) -> Self {
         let bias = 7 + tie;
-        let [own, beside, above, across] = values.map(|value| u64::from(value.0 & OUTER));
-        let outer = u64::from(OUTER_ONES * bias) + 9 * own + 3 * (beside + above) + across;
-        let [own, beside, above, across] = values.map(|value| value.0 >> CHANNEL_BITS & MIDDLE);
+        let [own, beside, above, across] = each(*values, |value| apart(value.0));
+        let outer = 0x0001_0001 * bias + 9 * own + 3 * (beside + above) + across;
+        let [own, beside, above, across] = each(*values, |value| value.0 >> CHANNEL_BITS & MIDDLE);
         let middle = bias + 9 * own + 3 * (beside + above) + across;
-        Self((outer >> 4) as u32 & OUTER | (middle >> 4) << CHANNEL_BITS)
+        Self(outer & 0x3ff0_0000 | outer >> 4 & 0x3ff | (middle >> 4) << CHANNEL_BITS)
     }
 }
 
@@ -108,6 +117,11 @@ pub struct Moving {
     pub source: u32,
 }
 
+impl Moving {
+    /// Black, from the first cell: what the memory of a pyramid is set up with.
+    pub const BLACK: Self = Self { tint: Tint::BLACK, source: 0 };
+}
+
 impl Value for Moving {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
@@ -117,17 +131,17 @@ impl Value for Moving {
                 (source, most) = (value.source, weight);
             }
         }
-        Self { tint: Tint::mean(&values.map(|value| value.tint), weights, tie), source }
+        Self { tint: Tint::mean(&each(*values, |value| value.tint), weights, tie), source }
     }
 
     #[inline(always)]
     fn plain_mean(values: &[Self; 4], tie: u32) -> Self {
-        Self { tint: Tint::plain_mean(&values.map(|value| value.tint), tie), ..values[0] }
+        Self { tint: Tint::plain_mean(&each(*values, |value| value.tint), tie), ..values[0] }
     }
 
     #[inline(always)]
     fn linear(values: &[Self; 4], tie: u32) -> Self {
-        Self { tint: Tint::linear(&values.map(|value| value.tint), tie), ..values[0] }
+        Self { tint: Tint::linear(&each(*values, |value| value.tint), tie), ..values[0] }
     }
 }
 

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::mean::tie;
 use super::paint::Tint;
-use super::push_pull::{Picture, RUN, Value, below};
+use super::push_pull::{Picture, RUN, Value, below, each};
 use super::pyramid::Known;
 use super::validity::FULL;
 use crate::colour::Colour;
@@ -79,8 +79,9 @@ impl<C: Colour> Picture for Masked<'_, C> {
     fn block(&self, x: u32, y: u32) -> [Known<Tint>; 4] {
         let (left, top) = (x << 1, y << 1);
         if left + 1 >= self.width || top + 1 >= self.height {
-            return below(x, y)
-                .map(|(x, y)| if x < self.width && y < self.height { self.known(x, y) } else { Known::default() });
+            return each(below(x, y), |(x, y)| {
+                if x < self.width && y < self.height { self.known(x, y) } else { Known::default() }
+            });
         }
         let two = |cell: u32| {
             let pair =

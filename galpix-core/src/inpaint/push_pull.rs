@@ -62,7 +62,7 @@ pub trait Picture {
     #[inline(always)]
     fn block(&self, x: u32, y: u32) -> [Known<Self::Value>; 4] {
         let [width, height] = self.size();
-        below(x, y).map(|(x, y)| if x < width && y < height { self.known(x, y) } else { Known::default() })
+        each(below(x, y), |(x, y)| if x < width && y < height { self.known(x, y) } else { Known::default() })
     }
 
     /// The plain means of [`RUN`] blocks side by side, from that below cell `x` of row `y` of level 1 on, if all of their
@@ -76,6 +76,13 @@ pub trait Picture {
     /// Asks `value` for each hole that is to be filled, row by row, and puts there what it answers; how many got something. What
     /// [`Self::known`] says of any cell does not change by that.
     fn fill_holes(&mut self, value: impl FnMut(&Self, u32, u32) -> Option<Self::Value>) -> u32;
+}
+
+/// What comes of each of four. The `map` of arrays is not always inlined for small processors, and then goes through memory.
+#[inline(always)]
+pub(super) fn each<T: Copy, U>(four: [T; 4], mut of: impl FnMut(T) -> U) -> [U; 4] {
+    let [a, b, c, d] = four;
+    [of(a), of(b), of(c), of(d)]
 }
 
 /// How a picture is filled.
@@ -96,11 +103,11 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Know
     let depth = children.iter().fold(0, |farthest, child| farthest.max(child.depth));
     let nearest = children.iter().fold(u32::MAX, |nearest, child| nearest.min(child.depth));
     if children.iter().all(|child| child.validity == FULL) && depth - nearest <= rule.threshold {
-        return Known { validity: FULL, depth, value: V::plain_mean(&children.map(|child| child.value), tie) };
+        return Known { validity: FULL, depth, value: V::plain_mean(&each(*children, |child| child.value), tie) };
     }
-    let weights = children.map(|child| if depth - child.depth > rule.threshold { 0 } else { child.validity });
+    let weights = each(*children, |child| if depth - child.depth > rule.threshold { 0 } else { child.validity });
     let sum = weights.iter().sum();
-    let value = if sum == 0 { V::default() } else { V::mean(&children.map(|child| child.value), &weights, tie) };
+    let value = if sum == 0 { V::default() } else { V::mean(&each(*children, |child| child.value), &weights, tie) };
     Known { validity: rule.gamma.raised(sum), depth, value }
 }
 
@@ -109,16 +116,18 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], rule: &Rule, tie: u32) -> Know
 #[inline(always)]
 #[must_use]
 pub fn sampled<V: Value>(coarse: &[Known<V>; 4], depth: u32, rule: &Rule, tie: u32) -> Option<V> {
-    let of_use = coarse.map(|cell| cell.validity != 0 && depth.saturating_sub(cell.depth) <= rule.threshold);
-    let values = coarse.map(|cell| cell.value);
-    if of_use == [true; 4] {
+    let of_use = each(*coarse, |cell| cell.validity != 0 && depth.saturating_sub(cell.depth) <= rule.threshold);
+    let values = each(*coarse, |cell| cell.value);
+    // Comparisons of arrays would be calls.
+    let [own, beside, above, across] = of_use;
+    if own & beside & above & across {
         return Some(V::linear(&values, tie));
     }
     let mut weights = LINEAR;
     for (weight, of_use) in weights.iter_mut().zip(of_use) {
         *weight *= u32::from(of_use);
     }
-    if weights == [0; 4] { None } else { Some(V::mean(&values, &weights, tie)) }
+    if own | beside | above | across { Some(V::mean(&values, &weights, tie)) } else { None }
 }
 
 /// PUSH of Algorithm 1: a cell takes its own value by its validity, and the rest from the coarser level.
@@ -168,7 +177,7 @@ impl<V: Value> Filling<'_, '_, V> {
     fn pull(&mut self, picture: &impl Picture<Value = V>, level: u32, x: u32, y: u32) {
         let children = match level {
             1 => picture.block(x, y),
-            _ => self.pyramid.indices(level - 1, below(x, y)).map(|index| self.pyramid.known(index)),
+            _ => each(self.pyramid.indices(level - 1, below(x, y)), |index| self.pyramid.known(index)),
         };
         let known = pulled(&children, self.rule, tie(x, y, level));
         let index = self.pyramid.index(level, x, y);
@@ -178,7 +187,7 @@ impl<V: Value> Filling<'_, '_, V> {
     /// The linear sample at a place of `level`, from the cells above it, which are completed.
     #[inline(always)]
     fn sample(&self, level: u32, x: u32, y: u32, depth: u32, above: [usize; 4]) -> Option<V> {
-        sampled(&above.map(|index| self.pyramid.known(index)), depth, self.rule, tie(x, y, level))
+        sampled(&each(above, |index| self.pyramid.known(index)), depth, self.rule, tie(x, y, level))
     }
 
     /// Where in the pyramid the cells lie that a cell is sampled from.
@@ -202,16 +211,17 @@ impl<V: Value> Filling<'_, '_, V> {
         let end = (x + count).min(self.pyramid.levels().level(level).width);
         let row = self.pyramid.index(level, x, y);
         let (mut at, mut index) = (x, row);
+        // Where one run is uneven the next one is sought behind it.
+        let mut uneven = x;
         while at < end {
-            if level == 1
-                && end - at >= RUN as u32
-                && self.pyramid.are_untouched(index, RUN as u32)
-                && let Some(run) = picture.even_run(at, y, self.rule.threshold)
-            {
-                self.pyramid.set_run(index, &run);
-                at += RUN as u32;
-                index += RUN;
-                continue;
+            if level == 1 && at >= uneven && end - at >= RUN as u32 && self.pyramid.are_untouched(index, RUN as u32) {
+                if let Some(run) = picture.even_run(at, y, self.rule.threshold) {
+                    self.pyramid.set_run(index, &run);
+                    at += RUN as u32;
+                    index += RUN;
+                    continue;
+                }
+                uneven = at + RUN as u32;
             }
             if self.pyramid.state(index) == State::Untouched {
                 self.pull(picture, level, at, y);

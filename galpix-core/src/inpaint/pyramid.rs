@@ -1,6 +1,7 @@
 //! The cells of a pyramid, in lent memory.
 
 use super::levels::Levels;
+use super::push_pull::each;
 use super::validity::FULL;
 use crate::error::SetupError;
 
@@ -124,7 +125,7 @@ impl<'s, V: Copy + Default> Pyramid<'s, V> {
             return [usize::MAX; 4];
         }
         let level = self.levels.level(level);
-        places.map(|(x, y)| {
+        each(places, |(x, y)| {
             if x < level.width && y < level.height { (level.start + y * level.width + x) as usize } else { usize::MAX }
         })
     }

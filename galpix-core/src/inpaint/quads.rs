@@ -13,6 +13,7 @@ use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
 use crate::propagate::{advance, cells_moved, thresholds};
+use crate::record::{Record, Words};
 use crate::rounding::Rounding;
 
 /// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
@@ -47,6 +48,8 @@ struct Step<'s, 'p, 'q, L, B> {
     before: &'s Galpixmap<'p, L, B>,
     map: &'s mut Galpixmap<'q, L, B>,
     thresholds: [i32; 3],
+    /// Ones in all fields from which a step in the plane follows.
+    motion: Words,
 }
 
 /// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
@@ -65,17 +68,17 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
     }
     let thresholds = thresholds(before.record(), rounding, frame);
     let (width, starts) = (before.grid().width(), before.grid().starts());
-    let mut step = Step { before, map, thresholds };
+    let mut step = Step { before, map, thresholds, motion: motion(before.record()) };
     let mut changed = 0;
     for (y, (&row, &next)) in (0..).zip(starts.iter().zip(starts.iter().skip(1))) {
         let mut x = 0;
         while x + 1 < width {
-            let run = (width - 1 - x).min(RUN);
-            // Bit i: a corner in column x + i is on an edge.
-            let columns = bits(edges, row + x) | bits(edges, next + x);
-            let quads = (columns | columns >> 1) & ((1 << run) - 1);
+            let run = (width - 1 - x).min(QUADS);
+            let on_edge = on_edge(edges, row + x) | on_edge(edges, next + x);
+            // A bit for each quad: two columns of it.
+            let quads = (on_edge | on_edge >> 1) & ((1 << run) - 1);
             if quads != 0 {
-                changed += step.draw_run(quads as u32, x, y, row, next);
+                changed += step.draw_run(quads, x, y, row, next);
             }
             x += run;
         }
@@ -83,15 +86,25 @@ pub fn lay_background<L: Layout, B: Budget<L>>(
     changed
 }
 
-/// Quads that are looked at once.
-const RUN: u32 = 32;
+/// Quads beside each other whose columns fit into a word of the edge map.
+const QUADS: u32 = u32::BITS - 1;
 
-/// The edge bits of 33 cells from `cell` on, and more.
+/// Which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the map is.
 #[inline(always)]
-fn bits(edges: &[u32], cell: u32) -> u64 {
-    let word = |word: u32| u64::from(edges.get(word as usize).copied().unwrap_or(u32::MAX));
-    let at = cell / u32::BITS;
-    (word(at) | word(at + 1) << u32::BITS) >> (cell % u32::BITS)
+fn on_edge(edges: &[u32], cell: u32) -> u32 {
+    let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
+    let (at, shift) = ((cell / u32::BITS) as usize, cell % u32::BITS);
+    word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
+}
+
+/// See [`Step::motion`].
+fn motion(record: &Record) -> Words {
+    let mut motion = Words::default();
+    let fields = [record.velocity(0), record.velocity(1), record.acceleration(0), record.acceleration(1)];
+    for field in fields.into_iter().chain([record.offset_x(), record.offset_y()]) {
+        field.set(&mut motion, u32::MAX);
+    }
+    motion
 }
 
 impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
@@ -103,6 +116,9 @@ impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
         while quads != 0 {
             let left = x + quads.trailing_zeros();
             quads &= quads - 1;
+            if self.moves_as_one([row + left, next + left]) {
+                continue;
+            }
             let column = |x: u32| [self.corner(row + x, x, y), self.corner(next + x, x, y + 1)];
             let lefts = match known {
                 Some((x, corners)) if x == left => corners,
@@ -115,6 +131,18 @@ impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
             }
         }
         changed
+    }
+
+    /// Whether the corners of a quad, two from each of these cells on, make the same step: then it is not torn.
+    #[inline(always)]
+    fn moves_as_one(&self, cells: [u32; 2]) -> bool {
+        let mut differ = 0;
+        for (plane, mask) in self.before.planes().iter().zip(self.motion).take(self.before.record().words()) {
+            let two = |cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<2>).copied();
+            let (Some([a, b]), Some([c, d])) = (two(cells[0]), two(cells[1])) else { return false };
+            differ |= ((a ^ b) | (a ^ c) | (a ^ d)) & mask;
+        }
+        differ == 0
     }
 
     /// A cell of the map before as a corner; none if it is empty.

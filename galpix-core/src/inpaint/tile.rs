@@ -75,8 +75,7 @@ pub const ALL: Bits = (1 << TILE) - 1;
 
 impl Surroundings {
     /// Nothing.
-    #[must_use]
-    pub const fn new() -> Self {
+    pub(super) const fn new() -> Self {
         Self { channels: [[[0; COLUMNS]; ROWS]; 3], depths: [[0; COLUMNS]; ROWS], known: [[0; COLUMNS]; ROWS] }
     }
 

@@ -3,7 +3,7 @@
 use super::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use super::mean::signed;
 use super::metamer::Scene;
-use super::push_pull::{Picture, Value};
+use super::push_pull::Value;
 use super::steerable::{COLUMNS, LARGEST};
 use super::tile::Row;
 use super::ycbcr;
@@ -87,17 +87,15 @@ impl<L: Layout> OfGalpixel<L> for Tone {
     }
 }
 
-/// The stored colour nearest to one of 8 bits a channel.
+/// The stored colour nearest to one of 8 bits a channel, or one that is farther by a single code value.
 #[inline(always)]
 fn stored<C: Colour>(rgb: [u8; 3]) -> u32 {
-    let exact = C::from_rgb888(rgb);
-    let wide = C::to_rgb888(exact);
-    // What the low bits of the stored form say is a channel's high ones again: half a step on, a channel that is at
-    // least half a step farther than that gets the next one.
     let mut rounded = [0; 3];
-    for ((to, &level), &below) in rounded.iter_mut().zip(&rgb).zip(&wide) {
-        let over = i32::from(level) - i32::from(below);
-        *to = (i32::from(level) + over.max(0)).min(255) as u8;
+    for (i, (to, &level)) in rounded.iter_mut().zip(&rgb).enumerate() {
+        // The one channel of a gray stands for all three.
+        let bits = C::CHANNELS.get(i).or(C::CHANNELS.first()).map_or(8, |channel| channel.bits);
+        // A level of b bits has its high bits once more below: what they add is taken away before half a step is added.
+        *to = level - (level as u32 >> bits) as u8 + ((1 << (8 - bits)) >> 1) as u8;
     }
     C::from_rgb888(rounded)
 }
@@ -180,9 +178,43 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
     }
 }
 
-/// Says that a scene is a picture of tones.
-const _: fn() = || {
-    const fn is_picture<P: Picture<Value = Tone>>() {}
-    is_picture::<Uncovered<'static, 'static, crate::layout::Full, crate::galpixel::Chosen<crate::layout::Full>, Tone>>(
-    );
-};
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::{Gray4, Gray8, Rgb565, Rgb888};
+
+    fn comes_back<C: Colour>(colours: impl Iterator<Item = u32>) {
+        for colour in colours {
+            assert_eq!(stored::<C>(C::to_rgb888(colour)), colour);
+        }
+    }
+
+    #[test]
+    fn every_stored_colour_comes_back() {
+        comes_back::<Rgb888>((0..1 << 24).step_by(7));
+        comes_back::<Rgb565>(0..1 << 16);
+        comes_back::<Gray8>(0..256);
+        comes_back::<Gray4>(0..16);
+    }
+
+    #[test]
+    fn a_near_level_is_stored() {
+        for level in 0..=255u8 {
+            let [red, green, blue] = Rgb565::to_rgb888(stored::<Rgb565>([level; 3]));
+            // Steps of five bits are 8 or 9 wide, those of six 4 or 5.
+            assert!(level.abs_diff(red) <= 5 && level.abs_diff(green) <= 3 && red == blue, "{level}: {red} {green}");
+        }
+    }
+
+    #[test]
+    fn usual_weights_need_no_product() {
+        let tone = |k: i16| Tone { channels: [k, -k, 1020 - k], source: k as u32 };
+        for k in 0..500 {
+            let values = [tone(k), tone(2 * k), tone(k / 3), tone(510)];
+            for tie in 0..2 {
+                assert_eq!(Tone::plain_mean(&values, tie), Tone::mean(&values, &[16; 4], tie));
+                assert_eq!(Tone::linear(&values, tie), Tone::mean(&values, &[9, 3, 3, 1], tie));
+            }
+        }
+    }
+}

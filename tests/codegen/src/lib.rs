@@ -1,16 +1,19 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
-//! `proof_*` must reach no panic, no multiplication, no division and no float; `planted_*` each reach one of them on
-//! purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
+//! `proof_*` must reach no panic, no multiplication, no division and no float, but for `proof_inpaint_*`, which may multiply;
+//! `planted_*` each reach one of them on purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
 //! settings come from outside.
 
 #![no_std]
 
 use galpix_core::budget::{Bits, Demand};
-use galpix_core::frame::{self, Scratch, Settings, Work};
+use galpix_core::frame::{self, Controller, Inpainting, Scratch, Settings, Work};
 use galpix_core::galpixel::{Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::layout::{Flat565, Full, Shaded, Velocity565, VelocityGray4};
+use galpix_core::rolling::Rolling;
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 use galpix_core::{edge, fill, scan_out, sweep};
@@ -35,7 +38,7 @@ impl Profile for PanelVelocity {
 
 macro_rules! proofs {
     ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
-        $scan_out:ident;)*) => {$(
+        $scan_out:ident, $inpaint:ident, $rolling:ident;)*) => {$(
         /// Propagation and resolution.
         #[unsafe(no_mangle)]
         pub fn $sweep(
@@ -90,6 +93,28 @@ macro_rules! proofs {
             frame::step(front, back, scratch, &Settings { work: Work::Constant, ..*settings }, frame)
         }
 
+        /// Quads and push-pull, sparse and dense, of colours with their motion.
+        #[unsafe(no_mangle)]
+        pub fn $inpaint(
+            controller: &mut Controller<'_, $layout, Static<$profile>>,
+            settings: &Settings,
+            inpainting: &Inpainting<'_>,
+            pyramid: &mut Pyramid<'_, Moving>,
+        ) -> u32 {
+            controller.inpaint(settings, inpainting, pyramid)
+        }
+
+        /// Push-pull in one map, of colours.
+        #[unsafe(no_mangle)]
+        pub fn $rolling(
+            rolling: &mut Rolling<'_, $layout, Static<$profile>>,
+            settings: &Settings,
+            inpainting: &Inpainting<'_>,
+            pyramid: &mut Pyramid<'_, Tint>,
+        ) -> u32 {
+            rolling.inpaint(settings, inpainting, pyramid)
+        }
+
         /// A row for a display of 16-bit words.
         #[unsafe(no_mangle)]
         pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
@@ -101,14 +126,19 @@ macro_rules! proofs {
 }
 
 proofs! {
-    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full;
-    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded;
+    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full,
+        proof_inpaint_full, proof_inpaint_rolling_full;
+    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded,
+        proof_inpaint_shaded, proof_inpaint_rolling_shaded;
     Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
-        proof_scan_out_flat565;
+        proof_scan_out_flat565,
+        proof_inpaint_flat565, proof_inpaint_rolling_flat565;
     Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
-        proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565;
+        proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565,
+        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565;
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
-        proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4;
+        proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
+        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4;
 }
 
 mod planted {
@@ -150,6 +180,18 @@ mod planted {
     #[unsafe(no_mangle)]
     pub fn planted_wide_multiply(y: u64, width: u64) -> u64 {
         y.wrapping_mul(width)
+    }
+
+    /// A quotient where a product is allowed.
+    #[unsafe(no_mangle)]
+    pub fn planted_inpaint_divide(cells: u32, width: core::num::NonZeroU32) -> u32 {
+        cells.wrapping_mul(cells) / width
+    }
+
+    /// A panic where a product is allowed.
+    #[unsafe(no_mangle)]
+    pub fn planted_inpaint_panic(words: &mut [u32], cell: usize) {
+        outer(words, cell.wrapping_mul(cell));
     }
 
     /// A division, an instruction or a helper; no panic.

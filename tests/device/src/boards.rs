@@ -16,6 +16,28 @@ pub enum Board {
     VexpressA9,
 }
 
+/// How a board's program fills what a frame uncovers. Each is a program of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Filling {
+    /// By the fill ladder.
+    Ladder,
+    /// By push-pull after it: the feature `push-pull` of the boards.
+    PushPull,
+}
+
+impl Filling {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Ladder, Self::PushPull];
+
+    /// What is added to the name of a program or a scene.
+    pub const fn suffix(self) -> &'static str {
+        match self {
+            Self::Ladder => "",
+            Self::PushPull => "-push-pull",
+        }
+    }
+}
+
 impl Board {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Lm3s6965evb, Self::VexpressA9];
@@ -46,12 +68,12 @@ impl Board {
     }
 
     /// Its program.
-    pub fn program(self, firmware: &Path) -> PathBuf {
+    pub fn program(self, firmware: &Path, filling: Filling) -> PathBuf {
         let target = match self {
             Self::Lm3s6965evb => "thumbv7m-none-eabi",
             Self::VexpressA9 => "armv7a-none-eabi",
         };
-        firmware.join("target").join(target).join("release").join(self.name())
+        firmware.join("target").join(target).join("release").join(format!("{}{}", self.name(), filling.suffix()))
     }
 
     /// The panel's pixels on the emulated screen, with 8 bits a channel as [`Self::shown`] makes them.

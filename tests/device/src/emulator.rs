@@ -10,7 +10,7 @@ use galpix_sim::picture::Picture;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::boards::Board;
+use crate::boards::{Board, Filling};
 use crate::failure::Failure;
 use crate::line::Line;
 
@@ -40,8 +40,8 @@ impl Emulator {
     /// Starts the program of a board.
     ///
     /// *Errors:* no program, no emulator, or one that does not answer.
-    pub fn start(board: Board, firmware: &Path, pace: Pace) -> Result<Self, Failure> {
-        let program = board.program(firmware);
+    pub fn start(board: Board, filling: Filling, firmware: &Path, pace: Pace) -> Result<Self, Failure> {
+        let program = board.program(firmware, filling);
         if !program.is_file() {
             return Err(Failure::new(format!(
                 "{} is missing: build the firmware first, with `firmware/test.sh build`",

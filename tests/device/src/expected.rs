@@ -16,6 +16,7 @@ use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::graft::graft;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::pyramid::{Cell, Pyramid};
 use galpix_core::layout::Layout;
 use galpix_core::scan_out::{PanelColour, row};
 use galpix_core::tally::Tally;
@@ -23,7 +24,7 @@ use galpix_link::panel::Panel;
 use galpix_link::picture::PictureHash;
 use galpix_sim::picture::Picture;
 
-use crate::boards::Board;
+use crate::boards::{Board, Filling};
 use crate::failure::Failure;
 
 /// A frame that a panel must show.
@@ -47,19 +48,25 @@ pub enum Shows<'s> {
 
 /// The `frames` frames after frame `first`, in which the board was told what to show.
 pub fn frames(
-    board: Board,
+    (board, filling): (Board, Filling),
     shows: Shows<'_>,
     first: u32,
     frames: u32,
     overlay: bool,
 ) -> Result<Vec<Expected>, Failure> {
     match board {
-        Board::Lm3s6965evb => of::<galpix_link::panel::Oled>(board, shows, first, frames, overlay),
-        Board::VexpressA9 => of::<galpix_link::panel::Lcd>(board, shows, first, frames, overlay),
+        Board::Lm3s6965evb => of::<galpix_link::panel::Oled>((board, filling), shows, first, frames, overlay),
+        Board::VexpressA9 => of::<galpix_link::panel::Lcd>((board, filling), shows, first, frames, overlay),
     }
 }
 
-fn of<P: Panel>(board: Board, shows: Shows<'_>, first: u32, count: u32, overlay: bool) -> Result<Vec<Expected>, Failure>
+fn of<P: Panel>(
+    (board, filling): (Board, Filling),
+    shows: Shows<'_>,
+    first: u32,
+    count: u32,
+    overlay: bool,
+) -> Result<Vec<Expected>, Failure>
 where
     P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
 {
@@ -79,6 +86,9 @@ where
     )
     .map_err(|error| failed(&error))?;
     controller.set_frame(first);
+    let (mut cells, mut states) = (vec![Cell::<P::Filling>::default(); P::PYRAMID.0], vec![0; P::PYRAMID.1]);
+    let mut pyramid =
+        Pyramid::new(P::WIDTH.into(), P::HEIGHT.into(), &mut cells, &mut states).map_err(|error| failed(&error))?;
 
     let renderer = match shows {
         Shows::Scene(number) => {
@@ -105,6 +115,9 @@ where
             renderer.next(controller.front_mut(), now);
         }
         let tally = controller.step(&P::SETTINGS);
+        if filling == Filling::PushPull {
+            controller.inpaint(&P::SETTINGS, &P::INPAINTING, &mut pyramid);
+        }
         made.push(expected::<P>(board, &controller, &tally, overlay));
     }
     Ok(made)

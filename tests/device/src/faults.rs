@@ -9,7 +9,7 @@ use galpix_link::rejected::{Rejected, Rejections};
 use rand::rngs::SmallRng;
 use rand::{Rng, RngExt, SeedableRng};
 
-use crate::boards::Board;
+use crate::boards::{Board, Filling};
 use crate::emulator::{Emulator, Pace};
 use crate::failure::Failure;
 
@@ -19,7 +19,7 @@ const BATCH: u32 = 100;
 /// Sends `count` frames to each board.
 pub fn run(firmware: &Path, count: u32) -> Result<(), Failure> {
     for board in Board::ALL {
-        let mut emulator = Emulator::start(board, firmware, Pace::Free)?;
+        let mut emulator = Emulator::start(board, Filling::Ladder, firmware, Pace::Free)?;
         let before = emulator.line.status()?;
         let mut random = SmallRng::seed_from_u64(count.into());
         let (mut accepted, mut rejected) = (0u32, Rejections::new());

@@ -7,7 +7,7 @@ use galpix_link::frame::Frame;
 use galpix_sim::film::{apng_within, side_by_side};
 use galpix_sim::picture::Picture;
 
-use crate::boards::Board;
+use crate::boards::{Board, Filling};
 use crate::emulator::{Emulator, Pace};
 use crate::failure::Failure;
 use crate::screens::lockstep;
@@ -19,7 +19,7 @@ const MOST_BYTES: usize = 1_500_000;
 pub fn run(firmware: &Path, frames: u32) -> Result<(), Failure> {
     let mut shots: Vec<Vec<Picture>> = Vec::new();
     for board in Board::ALL {
-        let mut emulator = Emulator::start(board, firmware, Pace::Free)?;
+        let mut emulator = Emulator::start(board, Filling::Ladder, firmware, Pace::Free)?;
         lockstep(&mut emulator)?;
         let mut of_board = Vec::new();
         for number in 0..scene::ALL.len() as u8 {

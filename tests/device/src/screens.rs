@@ -10,7 +10,7 @@ use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
 use galpix_sim::send::pack;
 use galpix_sim::{fit, scene as sources};
 
-use crate::boards::Board;
+use crate::boards::{Board, Filling};
 use crate::emulator::{Emulator, Pace};
 use crate::expected::{self, Shows};
 use crate::failure::Failure;
@@ -30,11 +30,12 @@ type Hashes = BTreeMap<(String, String, u32), u32>;
 /// Rows of it that are sent.
 const ROWS_SENT: usize = 64;
 
-/// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board.
+/// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board with either filling.
 pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
     let mut hashes = Hashes::new();
-    for board in Board::ALL {
-        let mut emulator = Emulator::start(board, firmware, Pace::Free)?;
+    for (board, filling) in Board::ALL.into_iter().flat_map(|board| Filling::ALL.map(|filling| (board, filling))) {
+        let named = |scene: &str| format!("{scene}{}", filling.suffix());
+        let mut emulator = Emulator::start(board, filling, firmware, Pace::Free)?;
         lockstep(&mut emulator)?;
         for (number, scene) in (0..).zip(&scene::ALL) {
             // The overlay in every second scene: it must neither be missing nor leave anything behind.
@@ -43,20 +44,22 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
             emulator.line.send(&Frame::Overlay { on: overlay })?;
             emulator.line.send(&Frame::Scene { number })?;
             let first = emulator.line.status()?.frame;
-            let expected = expected::frames(board, Shows::Scene(number), first, frames, overlay)?;
+            let expected = expected::frames((board, filling), Shows::Scene(number), first, frames, overlay)?;
             for (age, expected) in (1..).zip(&expected) {
-                compare(&mut emulator, board, scene.name, expected)?;
-                hashes.insert((board.name().into(), scene.name.into(), age), expected.hash);
+                compare(&mut emulator, board, &named(scene.name), expected)?;
+                hashes.insert((board.name().into(), named(scene.name), age), expected.hash);
             }
-            println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), scene.name);
+            println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), named(scene.name));
         }
         align(&mut emulator, board)?;
         let (first, words) = sent(&mut emulator, board)?;
-        for (age, expected) in (1..).zip(&expected::frames(board, Shows::Sent(&words), first, frames, false)?) {
-            compare(&mut emulator, board, SENT.1, expected)?;
-            hashes.insert((board.name().into(), SENT.1.into(), age), expected.hash);
+        for (age, expected) in
+            (1..).zip(&expected::frames((board, filling), Shows::Sent(&words), first, frames, false)?)
+        {
+            compare(&mut emulator, board, &named(SENT.1), expected)?;
+            hashes.insert((board.name().into(), named(SENT.1), age), expected.hash);
         }
-        println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), SENT.1);
+        println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), named(SENT.1));
     }
     keep(firmware, &hashes, write)
 }

@@ -2,15 +2,18 @@
 
 use galpix_core::edge;
 use galpix_core::fill::Rung;
-use galpix_core::frame::{Inpainting, Settings, Work};
+use galpix_core::frame::{Inpainting, Scratch, Settings, Work};
 use galpix_core::galpixel::Profile;
 use galpix_core::galpixel::{Chosen, Class};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::Grid;
 use galpix_core::inpaint::levels;
 use galpix_core::inpaint::map::OfGalpixel;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
 use galpix_core::inpaint::validity::Gamma;
 use galpix_core::layout::{Full, Layout};
+use galpix_core::rolling::Rolling;
 use galpix_tests::lent::{cell_words, with_controller, words};
 use galpix_tests::profiles::Paper;
 use galpix_tests::stage;
@@ -63,6 +66,38 @@ fn sparse_and_dense_give_the_same_maps() {
             let sparse = frames::<Moving>(&stage, Some(&inpainting), Work::Skipping, 3);
             assert!(sparse.iter().any(|(_, filled)| *filled > 20), "{name} has holes");
             assert_eq!(sparse, frames::<Moving>(&stage, Some(&inpainting), Work::Constant, 3), "{name} {gamma:?}");
+        }
+    }
+}
+
+#[test]
+fn one_map_is_filled_as_two_without_quads() {
+    let budget = Chosen::<Full>::new(Paper::BITS).unwrap();
+    let inpainting = Inpainting { quads: false, ..Inpainting::for_depth(DEPTH_BITS, Gamma::Half) };
+    for name in ["crossing", "pillars"] {
+        let stage = named(name);
+        let mut content = stage.content::<Full, _>(budget, |_| {});
+        let two = frames::<Tint>(&stage, Some(&inpainting), Work::Skipping, 4);
+        let (width, height) = (stage.shape.columns(), stage.shape.rows());
+        let (mut starts, mut turns) = (vec![0; height as usize], vec![0; height as usize]);
+        let grid = Grid::new(stage.shape.width, stage.shape.height, stage.shape.wings, &mut starts).unwrap();
+        let window = Grid::window(&grid, height, &mut turns).unwrap();
+        let mut few = vec![0; content.len()];
+        let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+        let mut rolling = Rolling::new(
+            Galpixmap::<Full, _>::over(grid, budget, &mut content).unwrap(),
+            Galpixmap::over(window, budget, &mut few).unwrap(),
+            Scratch { winners: &mut winners, edges: &mut edges },
+        )
+        .unwrap();
+        let mut memory = vec![Cell::<Tint>::default(); levels::cells(width, height)];
+        let mut states = vec![0; state_words(memory.len())];
+        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
+        let settings = settings(Work::Skipping);
+        for (n, frame) in (1..).zip(two) {
+            rolling.step(&settings);
+            let filled = rolling.inpaint(&settings, &inpainting, &mut pyramid);
+            assert!((words(rolling.map()), filled) == frame, "{name}, frame {n}");
         }
     }
 }

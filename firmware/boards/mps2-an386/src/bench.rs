@@ -15,6 +15,7 @@ use galpix_core::sweep::sweep;
 use galpix_core::tally::Tally;
 
 use crate::clock::Clock;
+use crate::inpainting::{Counts, Pyramids};
 use crate::pictures::Picture;
 use crate::report::{Row, print};
 
@@ -37,6 +38,8 @@ pub struct Bench {
     pub painted: &'static mut [u32],
     /// A map and its winners between sweep and fill.
     pub swept: [&'static mut [u32]; 2],
+    /// Memory for push-pull.
+    pub pyramids: Pyramids,
     /// Row starts of a window.
     pub window_rows: &'static mut [u32],
 }
@@ -65,6 +68,7 @@ impl Bench {
             picture.paint(&mut map);
             self.skipping::<L, P>(layout, picture, words);
         }
+        self.torn::<L, P>(layout, words);
         for picture in Picture::ALL.into_iter().chain(Picture::EXTREMES) {
             self.constant::<L, P>(layout, picture);
         }
@@ -72,10 +76,11 @@ impl Bench {
     }
 
     fn skipping<L: Layout, P: Profile>(&mut self, layout: &'static str, picture: Picture, words: usize) {
-        let mut ticks = Ticks::default();
+        let (mut ticks, mut inpainted) = (Ticks::default(), Counts::default());
         self.maps[0][..words].copy_from_slice(&self.painted[..words]);
         for frame in 0..FRAMES {
             self.frame::<L, P>(frame, words, &mut ticks);
+            self.inpaint::<L, P>(Some(frame), words, &mut inpainted);
             self.maps.swap(0, 1);
         }
         let row = Row { layout, picture: picture.name(), mode: Work::Skipping.name(), stage: "", rung: "-" };
@@ -88,6 +93,7 @@ impl Bench {
         }
         say(Row { stage: "frame", rung: Rung::default().name(), ..row }, ticks.frame);
         say(Row { stage: "rolling", rung: Rung::default().name(), ..row }, ticks.rolling);
+        inpainted.print(row, self.grid.cells());
     }
 
     /// One frame in one map, then stage by stage, then as a whole, which is what stays.

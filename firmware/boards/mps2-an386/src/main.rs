@@ -14,6 +14,7 @@
 
 mod bench;
 mod clock;
+mod inpainting;
 mod layouts;
 mod machine;
 mod pictures;
@@ -25,10 +26,13 @@ use core::hint::black_box;
 use cortex_m_rt::{ExceptionFrame, entry, exception};
 use galpix_core::frame::Scratch;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::pyramid::{Cell, state_words};
 use semihosting::{eprintln, println, process};
 
 use bench::Bench;
 use clock::Clock;
+use inpainting::Pyramids;
 use layouts::MOST_WORDS;
 use machine::{Machine, Psram};
 use pictures::Picture;
@@ -40,6 +44,8 @@ const HEIGHT: u32 = 240;
 /// Rows for constant work.
 const BAND: u32 = 48;
 const CELLS: usize = (WIDTH * HEIGHT) as usize;
+/// Cells of a pyramid.
+const PULLED: usize = levels::cells(WIDTH, HEIGHT);
 
 #[entry]
 fn main() -> ! {
@@ -55,6 +61,11 @@ fn main() -> ! {
         process::exit(2)
     });
     print_head();
+    let pyramids = Pyramids {
+        tints: psram.lend(PULLED, Cell::default()).expect("memory enough"),
+        moving: psram.lend(PULLED, Cell::default()).expect("memory enough"),
+        states: psram.lend(state_words(PULLED), 0).expect("memory enough"),
+    };
     let mut lend = |words: usize| psram.lend(words, 0).expect("memory enough");
     let mut bench = Bench {
         clock,
@@ -65,6 +76,7 @@ fn main() -> ! {
         window_rows: lend(HEIGHT as usize),
         maps: [FRONT, BACK],
         scratch: Scratch { winners: WINNERS, edges: EDGES },
+        pyramids,
     };
     layouts::measure_all(&mut bench);
     measure_plain(clock, &mut psram);

@@ -24,6 +24,8 @@ pub enum Picture {
     Flat,
     /// Every other cell by chance is empty, the others move together, for constant work.
     Holes,
+    /// Nothing moves, and beside each thing a crescent was just uncovered, for push-pull.
+    Torn,
 }
 
 /// A disc or a rectangle.
@@ -40,6 +42,9 @@ struct Thing {
 }
 
 const THINGS: u32 = 12;
+
+/// Columns of a crescent.
+const CRESCENT: i32 = 12;
 
 /// The background pans and comes nearer. As constants, for they are read from text.
 const BACKGROUND: [I32F32; 3] = [I32F32::lit("-0.8"), I32F32::lit("0.3"), I32F32::lit("-0.002")];
@@ -118,6 +123,7 @@ impl Picture {
             Self::Chaos => "chaos",
             Self::Flat => "flat",
             Self::Holes => "holes",
+            Self::Torn => "torn",
         }
     }
 
@@ -144,6 +150,12 @@ impl Picture {
                         ..Galpixel::default()
                     },
                 };
+                let uncovered = |thing: &Thing| {
+                    galpixel.depth > thing.depth && thing.covers(x - CRESCENT, y) && !thing.covers(x, y)
+                };
+                if self == Self::Torn && things.iter().any(uncovered) {
+                    galpixel.class = Class::JustUnobscured;
+                }
                 self.set_in_motion(x, y, width, height, &mut galpixel);
                 show(x, y, galpixel);
             }
@@ -158,7 +170,7 @@ impl Picture {
         }
         let outwards = |place: i32, middle: i32| I32F32::from_bits(i64::from(place - middle) * HUNDREDTH);
         match self {
-            Self::Still | Self::Layers => {}
+            Self::Still | Self::Layers | Self::Torn => {}
             Self::Pan => galpixel.velocity = PAN,
             Self::Zoom => galpixel.velocity = [outwards(x, width / 2), outwards(y, height / 2), I32F32::ZERO],
             Self::Flat => galpixel.depth = FAR,

@@ -27,7 +27,11 @@ pub fn print_head() {
 
 /// Prints a row: hundredths of an instruction a galpixel.
 pub fn print(row: &Row, ticks: u64, galpixels: u32) {
+    print_hundredths(row, hundredths(ticks, galpixels));
+}
+
+/// Prints a row of another count: hundredths of it.
+pub fn print_hundredths(row: &Row, count: u64) {
     let Row { layout, picture, mode, stage, rung } = row;
-    let count = hundredths(ticks, galpixels);
     println!("{},{layout},{picture},{mode},{stage},{rung},{count}", env!("GALPIX_TARGET"));
 }

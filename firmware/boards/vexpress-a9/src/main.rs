@@ -11,6 +11,7 @@ mod end;
 mod interrupts;
 mod memory;
 mod panel;
+mod push_pull;
 mod uart;
 
 use galpix_controller::board::Board;
@@ -82,7 +83,8 @@ fn main() -> ! {
 
     let board = Express { lcd, vsyncs: 0 };
     let Ok(controller) = controller(lent.maps, lent.scratch, lent.starts) else { end::fail() };
-    Session::new(board, controller, Display::DESCRIPTION, Display::SETTINGS).run()
+    let Ok(maps) = push_pull::inpainted(controller) else { end::fail() };
+    Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 
 /// The two maps over the memory of the program.

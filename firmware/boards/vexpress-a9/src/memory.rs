@@ -6,6 +6,7 @@ use static_cell::ConstStaticCell;
 
 use crate::Display;
 use crate::panel::Picture;
+use crate::push_pull;
 
 const HEIGHT: usize = Display::HEIGHT as usize;
 const EDGE_WORDS: usize = Display::CELLS.div_ceil(32);
@@ -18,11 +19,12 @@ static STARTS: ConstStaticCell<[u32; HEIGHT]> = ConstStaticCell::new([0; HEIGHT]
 static PICTURES: [ConstStaticCell<Picture>; 2] = [const { ConstStaticCell::new(Picture::new()) }; 2];
 
 /// What each piece takes, in bytes.
-pub const SHARES: [(&str, usize); 5] = [
+pub const SHARES: [(&str, usize); 6] = [
     ("for two maps", 2 * Display::MAP_WORDS * 4),
     ("for the winners", Display::CELLS * 4),
     ("for the edge map", EDGE_WORDS * 4),
     ("for the table of row starts", HEIGHT * 4),
+    ("for the pyramid of push-pull", push_pull::BYTES),
     ("for two pictures", 2 * size_of::<Picture>()),
 ];
 

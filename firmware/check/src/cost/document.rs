@@ -76,9 +76,12 @@ pub fn section(run: &Table) -> String {
     for remark in run.remarks() {
         let _ = writeln!(text, "- {remark}");
     }
-    for (title, stage, rung) in
-        [("Propagate and resolve", "sweep-alone", "-"), ("A whole frame with the rung extend", "frame", "extend")]
-    {
+    for (title, stage, rung) in [
+        ("Propagate and resolve", "sweep-alone", "-"),
+        ("A whole frame with the rung extend", "frame", "extend"),
+        ("Push-pull after it, sparse, without quads", "push-pull", "-"),
+        ("Push-pull for each hole", "push-pull-a-hole", "-"),
+    ] {
         for target in &targets {
             let _ = write!(text, "\n## {title}: {}\n\n{}", processor(target), by_picture(run, target, stage, rung));
         }

@@ -76,11 +76,10 @@ fn a_tile_is_the_noise_of_its_places_wherever_it_begins() {
     let mut tiles = [[[0; COLUMNS]; ROWS]; 3];
     for (x, y) in [(0, 0), (-3, 700), (i32::MAX - 5, i32::MIN)] {
         white_tile(x, y, 2, 8, &mut tiles);
-        for j in 0..ROWS {
-            for i in 0..COLUMNS {
-                let expected = white(x.wrapping_add(i as i32), y.wrapping_add(j as i32), 2, 8);
-                assert_eq!([tiles[0][j][i], tiles[1][j][i], tiles[2][j][i]], expected);
-            }
+        for place in 0..ROWS * COLUMNS {
+            let (i, j) = (place % COLUMNS, place / COLUMNS);
+            let expected = white(x.wrapping_add(i as i32), y.wrapping_add(j as i32), 2, 8);
+            assert_eq!(tiles.map(|cells| cells[j][i]), expected);
         }
     }
 }

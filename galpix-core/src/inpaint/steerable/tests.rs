@@ -66,7 +66,7 @@ fn a_tile_has_the_responses_of_its_cells() {
     for y in 0..TILE {
         for x in 0..TILE {
             let window = core::array::from_fn(|j| core::array::from_fn(|i| cells[y + j][x + i]));
-            assert_eq!(response(&window), [tile[0][y][x], tile[1][y][x]]);
+            assert_eq!(response(&window), [tile[0][row_of(y)][x], tile[1][row_of(y)][x]]);
         }
     }
 }
