@@ -2,12 +2,13 @@
 //! logic. The files are described in `docs/vectors.md`.
 //!
 //! ```text
-//! choice (which cases) ─▶ maps (what is in them) ─▶ run (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
+//! choice, inpaint (which cases) ─▶ maps (what is in them) ─▶ run (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
 //! ```
 
 mod case;
 mod choice;
 mod hash;
+mod inpaint;
 mod maps;
 mod run;
 mod write;

@@ -195,7 +195,7 @@ def compare_record(case, record, where, differences):
                                 f"got {getattr(place, part)}")
 
 
-# --- The five kinds --------------------------------------------------------------------------------------------------
+# --- The six kinds --------------------------------------------------------------------------------------------------
 # Each returns (Checked, arrays that must stand in the .hex files by name).
 
 def low_words(numbers):
@@ -320,13 +320,43 @@ def check_frame(case, where, differences, manifest_hashes):
     return Checked(len(frames), numbers), arrays
 
 
-CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame}
+def check_inpaint(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    reach, edge_threshold = get_int(case, "reach", where), get_int(case, "threshold", where)
+    n = get_int(case, "frame", where)
+    inpainting = model.Inpainting(get_choice(case, "gamma", model.GAMMAS, where),
+                                  get_int(case, "inpaint_threshold", where), get(case, "motion", bool, where),
+                                  get(case, "background", bool, where))
+    arrays = {name: get_words(case, name, where, record.words * cells) for name in ("front", "after", "map")}
+    # a frame without an edge map, and inpainting without a mask, have no words there; a mask may end early
+    length = -(-cells // 32)
+    arrays["edges"] = get_words(case, "edges", where, length if case.get("edges") else 0)
+    arrays["mask"] = get_words(case, "mask", where, min(length, len(get(case, "mask", list, where))))
+    before = model.unpack_map(arrays["front"], record, cells)
+    edges = None
+    if arrays["edges"]:
+        edges = model.edge_map(before, engine.grid, edge_threshold)
+        compare_numbers("edge word", arrays["edges"], model.edge_words(edges), where, differences)
+    after, _, _ = model.frame(engine, before, n, rounding, "extend", reach, edge_threshold, edges is not None)
+    compare_map("map after the frame", arrays["after"], after, engine, where, differences)
+    thresholds = model.thresholds_of(engine, rounding, n)
+    painted = model.inpaint(engine, inpainting, arrays["mask"] or None, before, edges, thresholds, after)
+    compare_map("map", arrays["map"], painted, engine, where, differences)
+    return Checked(0, 2 * len(arrays["map"]) + len(arrays["edges"])), arrays
+
+
+CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
+          "inpaint": check_inpaint}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
     "edge": "records, edges, counts",
     "fill": "records, maps, winners, counts",
     "frame": "records, maps, counts, hashes",
+    "inpaint": "records, edges, maps before and after inpainting",
 }
 
 

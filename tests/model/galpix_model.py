@@ -12,6 +12,8 @@ import hashlib
 import struct
 from collections import Counter, namedtuple
 from fractions import Fraction
+from itertools import combinations
+from math import isqrt
 
 reached = Counter()
 
@@ -531,12 +533,16 @@ def target_cell(grid, source, right, down):
     return y * columns(grid) + x
 
 
-def propagate(engine, front, rounding, n):
-    """Section 7: (arrivals, number of fields that saturated)."""
+def thresholds_of(engine, rounding, n):
+    """Section 5: the thresholds of a frame, one for each component."""
     # only for components that are carried, so that a rule counts as reached only where it has an effect
     carried = (engine.layout.velocity, engine.layout.velocity, engine.layout.depth_motion)
-    thresholds = [threshold(rounding, shifts.down, n) if lane else None
-                  for shifts, lane in zip(engine.shifts, carried)]
+    return [threshold(rounding, shifts.down, n) if lane else None for shifts, lane in zip(engine.shifts, carried)]
+
+
+def propagate(engine, front, rounding, n):
+    """Section 7: (arrivals, number of fields that saturated)."""
+    thresholds = thresholds_of(engine, rounding, n)
     arrivals = []
     saturated = 0
     for source, galpixel in enumerate(front):
@@ -734,6 +740,9 @@ def is_inside(back, winners, edges, place, k):
     if back[place]["class"] != GALPIXEL:
         reached["10 not inside: class"] += 1
         return False
+    if edges is None:
+        reached["11 not inside: no edge map"] += 1
+        return False
     if winner < FILLED:
         reached["10 not inside: edge" if edges[winner] else "10 inside: no edge"] += 1
         return not edges[winner]
@@ -887,7 +896,7 @@ def last_resort(engine, rung, back, cell, before):
 
 
 def fill(engine, rung, reach, edges, front, resolved, resolved_winners):
-    """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell."""
+    """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell, or None."""
     back, winners = list(resolved), list(resolved_winners)
     holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY]
     counts = {"holes": len(holes), "bullets": 0, "debris": 0, "galdebris": 0, "empty": 0}
@@ -922,11 +931,11 @@ def fill(engine, rung, reach, edges, front, resolved, resolved_winners):
 COUNTS = ("moved", "lost", "collided", "saturated", "edges", "holes", "bullets", "debris", "galdebris", "empty")
 
 
-def frame(engine, front, n, rounding, rung, reach, edge_threshold):
+def frame(engine, front, n, rounding, rung, reach, edge_threshold, with_edges=True):
     """Section 11: (next front map, next frame counter, counts)."""
     counts = dict.fromkeys(COUNTS, 0)
     edges = None
-    if tells_surfaces_apart(rung):
+    if tells_surfaces_apart(rung) and with_edges:
         reached["11 edge map made"] += 1
         edges = edge_map(front, engine.grid, edge_threshold)
         counts["edges"] = sum(edges)
@@ -996,6 +1005,314 @@ def load_update(engine, values, red, green, blue, tag):
     return galpixel, counted
 
 
+# --- 14. Inpainting by push-pull -------------------------------------------------------------------------------------
+
+GAMMAS = ("0", "1/2", "1")
+SAMPLED = ("own", "column beside", "row beside", "both beside")
+Inpainting = namedtuple("Inpainting", "gamma threshold motion background")
+Node = namedtuple("Node", "validity depth values source")   # of a cell of a level; the last two None for validity 0
+Stored = namedtuple("Stored", "columns rows nodes")         # a level
+
+
+def is_masked(mask, cell):
+    """Section 14: whether the bit of a cell is set; beyond the end of a mask no bit is."""
+    if cell // 32 >= len(mask):
+        reached["14 mask ends before the cell"] += 1
+        return False
+    return bool(mask[cell // 32] >> cell % 32 & 1)
+
+
+def is_hole(galpixel, mask, cell):
+    """Section 14: class 1 and, where there is a mask, its bit set."""
+    if mask is None:
+        reached["14 no mask"] += 1
+        return galpixel["class"] == JUST_UNOBSCURED
+    masked = is_masked(mask, cell)
+    if galpixel["class"] != JUST_UNOBSCURED:
+        if masked:
+            reached["14 bit of a cell of another class"] += 1
+        return False
+    reached["14 class 1, bit set" if masked else "14 class 1, bit not set"] += 1
+    return masked
+
+
+def in_hull(corners_at, column, row):
+    """Section 14: whether a place is in the convex hull of four places, border included.
+
+    A point of the hull of points in a plane is in a triangle of three of them, which may be a line or a point.
+    """
+    def side(a, b):
+        return (b[0] - a[0]) * (row - a[1]) - (b[1] - a[1]) * (column - a[0])
+
+    inside, on_side = False, False
+    for a, b, c in combinations(corners_at, 3):
+        box = all(min(p) <= q <= max(p) for p, q in zip(zip(a, b, c), (column, row)))
+        sides = side(a, b), side(b, c), side(c, a)
+        if box and (min(sides) >= 0 or max(sides) <= 0):
+            inside = True
+            on_side = on_side or 0 in sides
+    if inside:
+        reached["14 hull: on a line between corners" if on_side else "14 hull: between all lines"] += 1
+    else:
+        reached["14 hull: in the box alone"] += 1
+    return inside
+
+
+def is_line(places):
+    """Section 14, for coverage alone: whether all places are on one line."""
+    return all((b[0] - a[0]) * (c[1] - a[1]) == (b[1] - a[1]) * (c[0] - a[0]) for a, b, c in combinations(places, 3))
+
+
+def is_quad(before, grid, edges, quad):
+    """Section 14: whether four cells of the map before the frame are the corners of a quad."""
+    if edges is None:
+        reached["14 quad without an edge map"] += 1
+    elif not any(edges[cell] for cell in quad):
+        reached["14 no quad: no edge"] += 1
+        return False
+    if any(before[cell]["class"] == EMPTY for cell in quad):
+        reached["14 no quad: a corner is empty"] += 1
+        return False
+    if edges is not None:
+        marked = [bool(edges[cell]) for cell in quad]
+        reached[f"14 quad, edge at corner {marked.index(True)} alone" if sum(marked) == 1 else
+                "14 quad, several edges"] += 1
+    return True
+
+
+def deepen(engine, before, edges, thresholds, after):
+    """Section 14, depth of the background: the map after the frame with the holes' depths raised."""
+    grid = engine.grid
+    after = list(after)
+    width = columns(grid)
+    for y in range(rows(grid) - 1):
+        for x in range(1, width):
+            quad = [row * width + column for column in (x - 1, x) for row in (y, y + 1)]
+            if not is_quad(before, grid, edges, quad):
+                continue
+            places, deepest = [], 0
+            for cell in quad:
+                stepped, right, down, _ = step_galpixel(engine, before[cell], thresholds)
+                places.append((cell % width + right, cell // width + down))
+                deepest = max(deepest, stepped["depth"])
+            left, right = min(p[0] for p in places), max(p[0] for p in places)
+            top, bottom = min(p[1] for p in places), max(p[1] for p in places)
+            w, h = right - left, bottom - top
+            if w < 2 and h < 2:
+                reached["14 quad not stretched"] += 1
+                continue
+            if w > 64 or h > 64:
+                reached["14 quad torn: columns" if h <= 64 else "14 quad torn: rows" if w <= 64 else
+                        "14 quad torn: both"] += 1
+                if max(w, h) == 65:
+                    reached["14 quad torn: just so"] += 1
+                continue
+            reached["14 quad stretched: both" if w >= 2 and h >= 2 else
+                    "14 quad stretched: columns" if w >= 2 else "14 quad stretched: rows"] += 1
+            if max(w, h) == 64:
+                reached["14 quad stretched: just so"] += 1
+            if is_line(places):
+                reached["14 quad is a line"] += 1
+            if left < 0 or right >= width or top < 0 or bottom >= rows(grid):
+                reached["14 quad with a corner outside of the map"] += 1
+            for row in range(max(top, 0), min(bottom, rows(grid) - 1) + 1):
+                for column in range(max(left, 0), min(right, width - 1) + 1):
+                    cell = row * width + column
+                    hole = after[cell]
+                    if hole["class"] != JUST_UNOBSCURED or not in_hull(places, column, row):
+                        continue
+                    if hole["depth"] >= deepest:
+                        reached["14 hole as deep as its quad"] += 1
+                        continue
+                    reached["14 hole deepened"] += 1
+                    after[cell] = {**hole, "depth": deepest}
+    return after
+
+
+def weighted_mean(values, weights, sources, tie):
+    """Section 14: `mean` of each channel of `values`, and its source."""
+    s = sum(weights)
+    means = []
+    for channel in zip(*values):
+        n = sum(weight * value for weight, value in zip(weights, channel))
+        if 2 * (n % s) == s:
+            reached[f"14 mean, half, tie {tie}"] += 1
+        means.append((n + (s - 1 + tie) // 2) // s)
+    largest = max(weights)
+    if len({source for source, weight in zip(sources, weights) if weight == largest}) > 1:
+        reached["14 source: first of several"] += 1
+    return tuple(means), sources[weights.index(largest)]
+
+
+def tie_at(x, y, k):
+    """Section 14."""
+    return (x ^ y ^ k) & 1
+
+
+def level_0(engine, galpixels, down):
+    """Section 14, levels: level 0."""
+    form = FORMATS[engine.layout.colour]
+    nodes = []
+    for cell, galpixel in enumerate(galpixels):
+        klass = galpixel["class"]
+        reached[f"14 level 0, class {klass}"] += 1
+        if klass == EMPTY and galpixel["depth"] >> down:
+            reached["14 depth of class 3 is 0"] += 1
+        depth = 0 if klass == EMPTY else galpixel["depth"] >> down
+        channels = split_channels(galpixel["colour"], engine.layout.colour)
+        values = tuple(c << (10 - bits) for c, bits in zip(channels, form.channels))
+        nodes.append(Node(16, depth, values, cell) if klass == GALPIXEL else Node(0, depth, None, None))
+    return Stored(columns(engine.grid), rows(engine.grid), nodes)
+
+
+def validity_of(gamma, total):
+    """Section 14, pull: the validity for S > 0."""
+    if gamma == "0":
+        reached["14 gamma 0"] += 1
+        return 16
+    if gamma == "1/2":
+        reached["14 gamma 1/2"] += 1
+        # the nearest to sqrt(4 S): m or m + 1; a square of m + 1/2 is no whole number, so that there is no half
+        root = isqrt(4 * total)
+        if 4 * total > root * root + root:
+            reached["14 gamma 1/2, rounds up"] += 1
+            root += 1
+        return max(1, root)
+    if total + 2 >> 2 < 1:
+        reached["14 gamma 1, at least 1"] += 1
+    reached["14 gamma 1"] += 1
+    return max(1, total + 2 >> 2)
+
+
+def pull(fine, k, gamma, limit):
+    """Section 14, pull: level k from level k - 1."""
+    wide, high = fine.columns + 1 >> 1, fine.rows + 1 >> 1
+    nodes = []
+    for y in range(high):
+        for x in range(wide):
+            below = [fine.nodes[row * fine.columns + column] for row in (2 * y, 2 * y + 1)
+                     for column in (2 * x, 2 * x + 1) if column < fine.columns and row < fine.rows]
+            if len(below) < 4:
+                reached["14 pull, one cell" if len(below) == 1 else
+                        "14 pull, one row" if 2 * y + 1 == fine.rows else "14 pull, one column"] += 1
+            depth = max(node.depth for node in below)
+            weights = []
+            for node in below:
+                if node.validity and node.depth != depth:
+                    reached["14 pull: nearer, counts with 0" if depth - node.depth > limit else
+                            "14 pull: nearer by the threshold" if depth - node.depth == limit else
+                            "14 pull: nearer by less"] += 1
+                weights.append(0 if depth - node.depth > limit else node.validity)
+            total = sum(weights)
+            if total == 0:
+                reached["14 pull: nothing counts" if any(node.validity for node in below) else
+                        "14 pull: nothing there"] += 1
+                nodes.append(Node(0, depth, None, None))
+                continue
+            counted = [(node, weight) for node, weight in zip(below, weights) if weight]
+            values, source = weighted_mean([node.values for node, _ in counted], [weight for _, weight in counted],
+                                           [node.source for node, _ in counted], tie_at(x, y, k))
+            nodes.append(Node(validity_of(gamma, total), depth, values, source))
+    return Stored(wide, high, nodes)
+
+
+def sample(coarse, x, y, depth, k, limit):
+    """Section 14, push: (values, source) of the sample for cell (x, y) of level k, or None."""
+    column, row = x >> 1, y >> 1
+    beside_x = column + 1 if x & 1 else column - 1
+    beside_y = row + 1 if y & 1 else row - 1
+    nodes, weights, there = [], [], []
+    four = (column, row), (beside_x, row), (column, beside_y), (beside_x, beside_y)
+    for (cx, cy), weight, name in zip(four, (9, 3, 3, 1), SAMPLED):
+        if not (0 <= cx < coarse.columns and 0 <= cy < coarse.rows):
+            reached["14 sample: cell does not exist"] += 1
+            continue
+        node = coarse.nodes[cy * coarse.columns + cx]
+        if node.validity == 0:
+            reached["14 sample: validity 0"] += 1
+            continue
+        if depth - node.depth > limit:
+            reached["14 sample: nearer"] += 1
+            continue
+        if node.depth < depth and depth - node.depth == limit:
+            reached["14 sample: nearer by the threshold"] += 1
+        nodes.append(node)
+        weights.append(weight)
+        there.append(name)
+    if not nodes:
+        return None
+    reached[f"14 sample of {', '.join(there)}"] += 1
+    return weighted_mean([node.values for node in nodes], weights, [node.source for node in nodes], tie_at(x, y, k))
+
+
+def push(fine, coarse, k, limit):
+    """Section 14, push: level k, which is not level 0, from level k + 1."""
+    nodes = []
+    for index, node in enumerate(fine.nodes):
+        y, x = divmod(index, fine.columns)
+        if node.validity == 16:
+            reached["14 push: full validity stays"] += 1
+            nodes.append(node)
+            continue
+        taken = sample(coarse, x, y, node.depth, k, limit)
+        if taken is None:
+            reached["14 push: no sample, nothing" if node.validity == 0 else "14 push: no sample, stays"] += 1
+            nodes.append(node)
+            continue
+        values, source = taken
+        if node.validity:
+            reached["14 push: mean, of itself most" if node.validity > 8 else
+                    "14 push: mean, halves" if node.validity == 8 else "14 push: mean, of the sample most"] += 1
+            values, source = weighted_mean([node.values, values], [node.validity, 16 - node.validity],
+                                           [node.source, source], tie_at(x, y, k))
+        else:
+            reached["14 push: takes the sample"] += 1
+        nodes.append(Node(16, node.depth, values, source))
+    return Stored(fine.columns, fine.rows, nodes)
+
+
+def inpaint(engine, inpainting, mask, before, edges, thresholds, after):
+    """Section 14: the map after a frame of rung extend, inpainted.
+
+    `before`: the map before the frame, `edges`: its edge map or None; `thresholds`: of the frame, of each component.
+    """
+    width = engine.widths["depth"]
+    down = max(0, width - 25)
+    reached["14 down > 0" if down else "14 down 0" if width else "14 no depth lane"] += 1
+    if inpainting.background:
+        reached["14 depth of the background"] += 1
+        after = deepen(engine, before, edges, thresholds, after)
+    else:
+        reached["14 no depth of the background"] += 1
+    levels = [level_0(engine, after, down)]
+    while len(levels[-1].nodes) > 1:
+        levels.append(pull(levels[-1], len(levels), inpainting.gamma, inpainting.threshold))
+    # from the level below the last down to level 1; level 0 has only its holes pushed, in the loop after this one
+    for k in range(len(levels) - 2, 0, -1):
+        levels[k] = push(levels[k], levels[k + 1], k, inpainting.threshold)
+    result = list(after)
+    form = FORMATS[engine.layout.colour]
+    for cell, galpixel in enumerate(after):
+        if not is_hole(galpixel, mask, cell):
+            continue
+        if len(levels) == 1:
+            reached["14 map of one cell"] += 1
+            continue
+        row, column = divmod(cell, columns(engine.grid))
+        taken = sample(levels[1], column, row, levels[0].nodes[cell].depth, 0, inpainting.threshold)
+        if taken is None:
+            reached["14 hole without a sample"] += 1
+            continue
+        values, source = taken
+        channels = [(c + (1 << (9 - bits))) >> (10 - bits) for c, bits in zip(values, form.channels)]
+        result[cell] = dict(after[source]) if inpainting.motion else dict(galpixel)
+        reached["14 hole takes colour and motion" if inpainting.motion else "14 hole takes colour alone"] += 1
+        result[cell]["class"] = galpixel["class"]
+        result[cell]["depth"] = galpixel["depth"]
+        result[cell]["colour"] = join_channels(channels, engine.layout.colour)
+    return result
+
+
 # --- The rules -------------------------------------------------------------------------------------------------------
 
 def rule_names():
@@ -1051,7 +1368,31 @@ def rule_names():
         names.append(f"10 rung {rung}, not known")
     names += ["10 extend: left is farther", "10 extend: right is farther", "10 extend: equal depths, left",
               "10 extend: only left", "10 extend: only right", "10 extend: row empty, before"]
-    names += ["11 edge map made", "11 no edge map", "11 frame counter wraps"]
+    names += ["11 edge map made", "11 no edge map", "11 not inside: no edge map", "11 frame counter wraps"]
+    names += ["14 no mask", "14 mask ends before the cell", "14 class 1, bit set", "14 class 1, bit not set",
+              "14 bit of a cell of another class", "14 no depth lane", "14 down 0", "14 down > 0",
+              "14 depth of the background", "14 no depth of the background", "14 quad without an edge map",
+              "14 no quad: no edge", "14 no quad: a corner is empty", "14 quad, several edges"]
+    names += [f"14 quad, edge at corner {corner} alone" for corner in range(4)]
+    names += ["14 quad not stretched", "14 quad stretched: columns", "14 quad stretched: rows",
+              "14 quad stretched: both", "14 quad stretched: just so", "14 quad torn: columns", "14 quad torn: rows",
+              "14 quad torn: both",
+              "14 quad torn: just so", "14 quad is a line", "14 quad with a corner outside of the map",
+              "14 hull: on a line between corners", "14 hull: between all lines", "14 hull: in the box alone",
+              "14 hole deepened", "14 hole as deep as its quad"]
+    names += [f"14 level 0, class {klass}" for klass in range(4)]
+    names += ["14 mean, half, tie 0", "14 mean, half, tie 1",
+              "14 source: first of several"]
+    names += [f"14 gamma {gamma}" for gamma in GAMMAS]
+    names += ["14 gamma 1/2, rounds up", "14 gamma 1, at least 1", "14 pull, one cell", "14 pull, one row",
+              "14 pull, one column", "14 pull: nearer, counts with 0", "14 pull: nearer by the threshold",
+              "14 pull: nearer by less", "14 pull: nothing counts", "14 pull: nothing there"]
+    names += [f"14 sample of {', '.join(some)}" for number in range(1, 5) for some in combinations(SAMPLED, number)]
+    names += ["14 sample: cell does not exist", "14 sample: validity 0", "14 sample: nearer",
+              "14 sample: nearer by the threshold", "14 push: full validity stays", "14 push: takes the sample",
+              "14 push: no sample, nothing", "14 push: no sample, stays", "14 push: mean, of itself most",
+              "14 push: mean, halves", "14 push: mean, of the sample most", "14 hole takes colour and motion",
+              "14 hole takes colour alone", "14 hole without a sample", "14 map of one cell"]
     return names
 
 
@@ -1064,4 +1405,5 @@ RULES_BEYOND_VECTORS = [
     *(f"9 from 8-bit to {name}" for name in FORMATS), *(f"9 shown from {name}" for name in FORMATS),
     "12 loaded as it is", "12 clamped at the lowest", "12 clamped at the highest", "12 clamped and counted",
     "12 absent field forgets",
+    "14 depth of class 3 is 0",     # after a frame it is 0 already
 ]

@@ -80,6 +80,9 @@ pub struct Recipe {
     pub levels: u32,
     /// To what the noise is scaled.
     pub noise: Scale,
+    /// Whether colours get noise of their own beside that of the luma. The chroma of a texture mostly goes with its luma; noise
+    /// that does not looks like coloured snow.
+    pub coloured: bool,
     /// Which noise.
     pub seed: u32,
     /// Frames since the picture was updated: how long it has moved. Beyond 65535 as 65535.
@@ -87,10 +90,17 @@ pub struct Recipe {
 }
 
 impl Recipe {
-    /// The paper's: gamma 1/2 and four levels; noise of full deviation.
+    /// Gamma 1/2 and four levels, as the paper's; noise of full deviation, in the luma.
     #[must_use]
     pub const fn new(threshold: u32, age: u32) -> Self {
-        Self { rule: Rule { gamma: Gamma::Half, threshold }, levels: 4, noise: Scale::Deviation, seed: 0, age }
+        Self {
+            rule: Rule { gamma: Gamma::Half, threshold },
+            levels: 4,
+            noise: Scale::Deviation,
+            coloured: false,
+            seed: 0,
+            age,
+        }
     }
 }
 
@@ -221,7 +231,7 @@ fn synthesise<S: Scene, const DENSE: bool>(
                 let half = (1 << level) >> 1;
                 let from = |place: i32, way: i32| place.wrapping_sub(way.saturating_add(half) >> level);
                 let noise = scratch.noise.at(level, from(at[0], motion[0]), from(at[1], motion[1]));
-                tone.detailed(detail(&statistics, noise, recipe.noise))
+                tone.detailed(detail(&statistics, noise, recipe))
             });
             if level == 0 {
                 if let Some(tone) = tone {
@@ -255,14 +265,17 @@ fn finish<P: Scene>(demand: &mut Demand<'_, '_, Moments, Responses<'_, '_, '_, P
 
 /// What a level adds to the three channels: the sum of both bands, in quarters, to the nearest.
 #[inline(always)]
-fn detail(statistics: &Statistics, noise: [[i16; 2]; 3], scale: Scale) -> [i32; 3] {
+fn detail(statistics: &Statistics, noise: [[i16; 2]; 3], recipe: &Recipe) -> [i32; 3] {
     const DOWN: u32 = noise::FRACTION_BITS + steerable::FRACTION_BITS - ycbcr::FRACTION_BITS;
     let mut detail = [0; BANDS / 2];
     for (channel, (to, noise)) in detail.iter_mut().zip(noise).enumerate() {
         let mut sum = 1 << (DOWN - 1);
+        let noisy = channel == 0 || recipe.coloured;
         for (band, response) in noise.into_iter().enumerate() {
             let at = 2 * channel + band;
-            sum += i32::from(statistics.deviations[at]) * scale.scaled(response);
+            if noisy {
+                sum += i32::from(statistics.deviations[at]) * recipe.noise.scaled(response);
+            }
             sum += i32::from(statistics.means[at]) << noise::FRACTION_BITS;
         }
         *to = sum >> DOWN;

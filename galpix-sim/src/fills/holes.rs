@@ -3,7 +3,7 @@
 
 use crate::area::{self, Window};
 use crate::experiment::{self, ExperimentError, Request, Source};
-use crate::fill::{Fill, in_fovea};
+use crate::fill::in_fovea;
 use crate::picture::Picture;
 use crate::update::Truth;
 
@@ -58,7 +58,6 @@ impl Holes {
 pub fn of(source: &Source, request: &Request, fovea: Option<u32>) -> Result<Vec<Holes>, ExperimentError> {
     let mut frames = Vec::new();
     let request = Request { fill: NOTHING.fill, perceptual: false, ..*request };
-    debug_assert_eq!(request.fill, Fill::Rung(galpix_core::fill::Rung::None));
     experiment::run(source, &request, |shown| {
         if let (Some(truth), true) = (shown.truth, shown.frame > 0) {
             frames.push(Holes::new(shown.frame, truth, shown.picture, shown.reached, fovea));

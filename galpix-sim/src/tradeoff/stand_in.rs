@@ -13,6 +13,9 @@ use super::timing::{Contender, Engine};
 use crate::fill::Inpaint;
 use crate::update::Update;
 
+/// Makes the contender of an update; none if its maps cannot be laid out.
+type Make = fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>;
+
 /// A budget and lanes that are fixed at compile time.
 #[derive(Clone, Copy)]
 pub struct StandIn {
@@ -22,7 +25,7 @@ pub struct StandIn {
     pub words: usize,
     /// `D`, `tau_recog` and `tau_prop` of its budget.
     pub demand: Demand,
-    make: fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>,
+    make: Make,
 }
 
 macro_rules! stand_ins {

@@ -23,7 +23,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill or frame.
+    /// step, resolve, edge, fill, frame or inpaint.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -66,6 +66,8 @@ pub enum Content {
     Fill(Fill),
     /// Whole frames.
     Frame(Frames),
+    /// What is painted after a frame.
+    Inpaint(Inpaint),
 }
 
 impl Content {
@@ -78,6 +80,7 @@ impl Content {
             Self::Edge(_) => "edge",
             Self::Fill(_) => "fill",
             Self::Frame(_) => "frame",
+            Self::Inpaint(_) => "inpaint",
         }
     }
 }
@@ -196,6 +199,40 @@ pub struct FrameAfter {
     /// What was counted.
     pub counts: Counts,
     /// The map.
+    pub map: Vec<u32>,
+}
+
+/// A map, the frame of rung extend after it, and what that becomes by push-pull.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Inpaint {
+    /// Widths, lanes, places, size.
+    #[serde(flatten)]
+    pub setting: Setting,
+    /// The rounding's name.
+    pub rounding: String,
+    /// Rounds of bullet filling.
+    pub reach: u32,
+    /// Of the edge map, in units of the depth's last bit.
+    pub threshold: u32,
+    /// The frame counter of `front`.
+    pub frame: u32,
+    /// The power of the validity: 0, 1/2 or 1.
+    pub gamma: String,
+    /// Between foreground and background, in units of the depths of push-pull.
+    pub inpaint_threshold: u32,
+    /// Whether holes take the motion and not the colour alone.
+    pub motion: bool,
+    /// Whether holes get the depth of the background first.
+    pub background: bool,
+    /// A bit for each cell; empty for all of them.
+    pub mask: Vec<u32>,
+    /// The map before the frame.
+    pub front: Vec<u32>,
+    /// The edge map of `front`; empty where the frame was made without one.
+    pub edges: Vec<u32>,
+    /// The map after the frame.
+    pub after: Vec<u32>,
+    /// The map after inpainting.
     pub map: Vec<u32>,
 }
 

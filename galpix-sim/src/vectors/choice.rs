@@ -11,6 +11,7 @@ use galpix_core::layout::{Flat565, Full, Lanes, Layout, Shaded, Still, Velocity5
 use galpix_core::rounding::Rounding;
 
 use super::case::{Case, Content, GridSize};
+use super::inpaint;
 use super::maps::{Picture, Random};
 use super::run::{self, Model, Plan, RunError};
 
@@ -20,7 +21,7 @@ const FRAMES: u32 = 5;
 /// Steps that are drawn for a wide component.
 const STEPS: u32 = 600;
 
-const fn grid(width: u32, height: u32, wings: [u32; 4]) -> GridSize {
+pub const fn grid(width: u32, height: u32, wings: [u32; 4]) -> GridSize {
     let [left, right, top, bottom] = wings;
     GridSize { width, height, left, right, top, bottom }
 }
@@ -131,6 +132,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
         stage_cases(&mut cases, seed, model)?;
         threshold_cases(&mut cases, seed, model)?;
     }
+    cases.extend(inpaint::cases(seed, &models()?)?);
     Ok(cases)
 }
 

@@ -65,10 +65,14 @@ pub enum Picture {
     Empty,
     /// Nothing moves.
     Still,
+    /// Two halves, a far and a near one, fly apart along the longer side, each row (or column) by a cell more.
+    Tear,
+    /// A block slides over a wide ground of two depths, so that long runs beside what it uncovers are known.
+    Slide,
 }
 
 impl Picture {
-    /// All of them.
+    /// All of them but the last two, which are for inpainting alone.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -99,6 +103,8 @@ impl Picture {
             Self::Leave => "leave",
             Self::Empty => "empty",
             Self::Still => "still",
+            Self::Tear => "tear",
+            Self::Slide => "slide",
         }
     }
 }
@@ -208,6 +214,19 @@ fn drawn(picture: Picture, record: &Record, at: [u32; 2], size: [u32; 2], random
             (Class::Galpixel, range(1 + at[0] % 4), [sign, -sign])
         }
         Picture::Leave => (Class::Galpixel, range(3), [4 * columns * if x % 2 == 0 { 1 } else { -1 }, 0]),
+        Picture::Tear => {
+            // In the first row the halves end 64 cells apart, which is the most that is still a surface.
+            let (along, across) = if columns >= rows { (from_x, y) } else { (from_y, x) };
+            let speed = if along < 0 { -2 * (31 + across) } else { 62 };
+            let depth = range(if along < 0 { 1 } else { 3 + (across % 2) as u32 });
+            (Class::Galpixel, depth, if columns >= rows { [speed, 0] } else { [0, speed] })
+        }
+        Picture::Slide => match x {
+            32..40 => (Class::Galpixel, range(1), [8, 0]),
+            // A part of the ground is nearer just before what is uncovered, in every other pair of rows.
+            31 if y / 2 % 2 == 1 => (Class::Galpixel, range(3), [0, 0]),
+            _ => (Class::Galpixel, range(6), [0, 0]),
+        },
         Picture::Empty => (Class::Empty, 0, [0, 0]),
         _ => (Class::Galpixel, range(1 + (at[0] ^ at[1]) % 6), [0, 0]),
     };

@@ -5,10 +5,15 @@ use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::{BudgetError, SetupError};
 use galpix_core::fill::{Rung, fill};
-use galpix_core::frame::{Controller, Scratch, Settings};
+use galpix_core::frame::{Controller, Inpainting, Scratch, Settings};
 use galpix_core::galpixel::{Budget as _, Chosen};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::push_pull::Rule;
+use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
 use galpix_core::layout::Layout;
 use galpix_core::propagate::{Arrival, arrivals, clamp_velocity, snap, step_position, step_velocity};
 use galpix_core::record::{Record, Scale};
@@ -16,7 +21,7 @@ use galpix_core::resolve::settle;
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 
-use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Resolve, Setting, Step};
+use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Resolve, Setting, Step};
 use super::hash;
 use super::maps::{Picture, Random, size, words};
 
@@ -46,6 +51,21 @@ pub struct Plan {
     pub frames: u32,
 }
 
+/// How a frame is painted.
+#[derive(Clone, Copy, Debug)]
+pub struct Paint {
+    /// Validity, and what foreground is.
+    pub rule: Rule,
+    /// The depth of the background first.
+    pub background: bool,
+    /// Motion and not colour alone.
+    pub motion: bool,
+    /// Parts of the map that a random mask covers, of 4; 0 for no mask.
+    pub masked_quarters: u32,
+    /// Whether the frame has an edge map.
+    pub edges: bool,
+}
+
 /// A layout under a budget, and what can be run with it.
 #[derive(Clone, Copy)]
 pub struct Model {
@@ -56,13 +76,14 @@ pub struct Model {
     bits: Bits,
     stages: fn(Bits, &Plan, &mut Random) -> Result<[Content; 3], RunError>,
     frames: fn(Bits, &Plan, &mut Random) -> Result<Content, RunError>,
+    painted: fn(Bits, &Plan, &Paint, &mut Random) -> Result<Content, RunError>,
 }
 
 impl Model {
     /// A layout under a budget.
     pub fn of<L: Layout>(name: &'static str, bits: Bits) -> Result<Self, RunError> {
         let depth_bits = Chosen::<L>::new(bits)?.record().depth().bits.into();
-        Ok(Self { name, depth_bits, bits, stages: stages::<L>, frames: frames::<L> })
+        Ok(Self { name, depth_bits, bits, stages: stages::<L>, frames: frames::<L>, painted: painted::<L> })
     }
 
     /// Resolve, edge and fill of one frame.
@@ -73,6 +94,11 @@ impl Model {
     /// Whole frames.
     pub fn frames(&self, plan: &Plan, random: &mut Random) -> Result<Content, RunError> {
         (self.frames)(self.bits, plan, random)
+    }
+
+    /// One frame, and what is painted after it.
+    pub fn painted(&self, plan: &Plan, paint: &Paint, random: &mut Random) -> Result<Content, RunError> {
+        (self.painted)(self.bits, plan, paint, random)
     }
 }
 
@@ -214,4 +240,68 @@ fn frames<L: Layout>(bits: Bits, plan: &Plan, random: &mut Random) -> Result<Con
         front: front_words,
         frames,
     }))
+}
+
+fn painted<L: Layout>(bits: Bits, plan: &Plan, paint: &Paint, random: &mut Random) -> Result<Content, RunError> {
+    let budget = Chosen::<L>::new(bits)?;
+    let record = *budget.record();
+    let mut lent = Lent::new(plan.grid);
+    let grid = lent.grid()?;
+    let front_words = words(plan.picture, &record, &plan.grid, random);
+    let (mut front, mut back) = (front_words.clone(), vec![0; front_words.len()]);
+    let mut winners = vec![0; grid.cells() as usize];
+    let mut edges = vec![0; if paint.edges { edge::words(&grid) } else { 0 }];
+    // A mask ends where it likes: the cells beyond are not in it.
+    let mask: Vec<u32> = match paint.masked_quarters {
+        0 => Vec::new(),
+        quarters => {
+            let length = (edge::words(&grid) * quarters as usize).div_ceil(4);
+            (0..length).map(|_| random.next() as u32 | random.next() as u32).collect()
+        }
+    };
+    let mut controller = Controller::new(
+        Galpixmap::<L, _>::over(grid, budget, &mut front)?,
+        Galpixmap::new(grid, budget, &mut back)?,
+        Scratch { winners: &mut winners, edges: &mut edges },
+    )?;
+    controller.set_frame(plan.frame);
+    controller.step(&plan.settings);
+    let after = planes(controller.front());
+    let edges = controller.edges().to_vec();
+    let inpainting = Inpainting { rule: paint.rule, quads: paint.background, mask: &mask };
+    if paint.motion {
+        inpaint::<L, Moving>(&mut controller, &plan.settings, &inpainting)?;
+    } else {
+        inpaint::<L, Tint>(&mut controller, &plan.settings, &inpainting)?;
+    }
+    let map = planes(controller.front());
+    let Settings { rounding, edge_threshold, reach, .. } = plan.settings;
+    Ok(Content::Inpaint(Inpaint {
+        setting: setting::<L>(bits, &record, plan.grid),
+        rounding: rounding.name().to_owned(),
+        reach,
+        threshold: edge_threshold,
+        frame: plan.frame,
+        gamma: paint.rule.gamma.name().to_owned(),
+        inpaint_threshold: paint.rule.threshold,
+        motion: paint.motion,
+        background: paint.background,
+        mask,
+        front: front_words,
+        edges,
+        after,
+        map,
+    }))
+}
+
+fn inpaint<L: Layout, V: OfGalpixel<L>>(
+    controller: &mut Controller<'_, L, Chosen<L>>,
+    settings: &Settings,
+    inpainting: &Inpainting<'_>,
+) -> Result<(), SetupError> {
+    let (columns, rows) = (controller.front().grid().width(), controller.front().grid().height());
+    let mut cells = vec![Cell::default(); levels::cells(columns, rows)];
+    let mut states = vec![0; state_words(cells.len())];
+    controller.inpaint(settings, inpainting, &mut Pyramid::<V>::new(columns, rows, &mut cells, &mut states)?);
+    Ok(())
 }

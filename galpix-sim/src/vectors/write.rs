@@ -85,6 +85,13 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
             ("map", fill.map.clone()),
             ("winners_after", fill.winners_after.clone()),
         ]),
+        Content::Inpaint(inpaint) => named(vec![
+            ("front", inpaint.front.clone()),
+            ("edges", inpaint.edges.clone()),
+            ("mask", inpaint.mask.clone()),
+            ("after", inpaint.after.clone()),
+            ("map", inpaint.map.clone()),
+        ]),
         Content::Frame(frames) => {
             let first = ("front".to_owned(), frames.front.clone());
             let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));

@@ -7,6 +7,8 @@ pub mod case;
 mod choice;
 #[path = "../../../galpix-sim/src/vectors/hash.rs"]
 mod hash;
+#[path = "../../../galpix-sim/src/vectors/inpaint.rs"]
+mod inpaint;
 #[path = "../../../galpix-sim/src/vectors/maps.rs"]
 mod maps;
 #[path = "../../../galpix-sim/src/vectors/run.rs"]

@@ -207,9 +207,10 @@ fn pulling_four_cells_is_what_the_rule_says_for_all_of_a_small_width() {
                 });
                 assert_eq!((pulled.depth, pulled.validity), (farthest, gamma.raised(sum)));
                 if sum > 0 {
-                    let (whole, rest) = (weighted / sum, weighted % sum);
-                    let mean = whole + u32::from(2 * rest > sum || 2 * rest == sum && tie == 1);
-                    assert_eq!(pulled.value.channels()[2], mean);
+                    let (mean, low) = (pulled.value.channels()[2], 2 * weighted);
+                    // The nearest whole number; of two equally near ones that of the place.
+                    let nearest = |mean: u32| low.abs_diff(2 * sum * mean);
+                    assert!(nearest(mean) < sum || nearest(mean) == sum && (2 * sum * mean > low) == (tie == 1));
                 }
                 seen += 1;
             }

@@ -129,7 +129,12 @@ fn slivers(x: i32, y: i32) -> bool {
 
 fn recipes() -> impl Iterator<Item = Recipe> {
     let gammas = Gamma::ALL.into_iter().flat_map(|gamma| (1..=6).map(move |levels| (gamma, levels)));
-    gammas.map(|(gamma, levels)| Recipe { rule: Rule { gamma, threshold: 8 }, levels, ..Recipe::new(8, 3) })
+    gammas.map(|(gamma, levels)| Recipe {
+        rule: Rule { gamma, threshold: 8 },
+        levels,
+        coloured: levels % 2 == 1,
+        ..Recipe::new(8, 3)
+    })
 }
 
 #[test]
@@ -215,8 +220,9 @@ fn variance_of(plate: &Plate, channel: usize) -> f64 {
 #[test]
 fn holes_vary_as_what_surrounds_them_does() {
     let truth = Plate::new(160, 120, gravel).with_holes(slivers);
-    let metamer = filled(&truth, &Recipe::new(8, 0), sparse);
-    let paper = filled(&truth, &Recipe { noise: Scale::Interval, ..Recipe::new(8, 0) }, sparse);
+    let coloured = Recipe { coloured: true, ..Recipe::new(8, 0) };
+    let metamer = filled(&truth, &coloured, sparse);
+    let paper = filled(&truth, &Recipe { noise: Scale::Interval, ..coloured }, sparse);
     let mut bare = truth.clone();
     let count = cells(truth.width, truth.height);
     let (mut tones, mut states) = (vec![Cell::unknown(Tone::default()); count], vec![0; state_words(count)]);
