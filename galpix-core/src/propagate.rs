@@ -97,14 +97,18 @@ pub(crate) fn advance<L: Layout, const CLAMP: bool>(record: &Record, thresholds:
 /// The cells that a galpixel moves in a step, along the row and along the column, and nothing else of it.
 #[inline(always)]
 pub(crate) fn cells_moved<L: Layout>(record: &Record, thresholds: &[i32; 3], words: &Words) -> [i32; 2] {
-    [0, 1].map(|component| {
-        if !L::LANES.velocity {
-            return 0;
-        }
-        let scale = &record.scales[component];
-        let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
-        snap(scale, step_position(scale, thresholds[component], record.offset(component).signed(words), v, a))
-    })
+    if !L::LANES.velocity {
+        return [0; 2];
+    }
+    [cells_along(record, thresholds[0], 0, words), cells_along(record, thresholds[1], 1, words)]
+}
+
+/// The cells moved in x (0) or y (1).
+#[inline(always)]
+fn cells_along(record: &Record, threshold: i32, component: usize, words: &Words) -> i32 {
+    let scale = &record.scales[component];
+    let (v, a) = (record.velocity(component).signed(words), record.acceleration(component).signed(words));
+    snap(scale, step_position(scale, threshold, record.offset(component).signed(words), v, a))
 }
 
 /// A step in x (0) or y (1): the cells moved, and by which bits the velocity strayed.

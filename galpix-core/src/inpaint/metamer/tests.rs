@@ -297,4 +297,7 @@ fn memory_is_as_stated() {
     let kib = |width, height| bytes(width, height, 4).div_ceil(1024);
     assert_eq!([kib(128, 64), kib(320, 240), kib(1024, 1024)], [179, 1453, 19_483]);
     assert_eq!((size_of::<Cell<Tone>>(), size_of::<Cell<Moments>>()), (16, 40));
+    // What firmware/README.md says of boards: a single cell, and the largest picture of 4 to 3 with 512 KiB.
+    assert_eq!(bytes(1, 1, 4).div_ceil(1024), 27);
+    assert!(bytes(184, 138, 4) <= 512 << 10 && bytes(188, 141, 4) > 512 << 10);
 }
