@@ -1,4 +1,4 @@
-//! Stage 5: rows of colour for a display. No arithmetic.
+//! Stage 6: rows of colour for a display. No arithmetic.
 //!
 //! [`row`] is the native path, for scanline engines and DMA: colour words of one row, in order. With the feature
 //! `embedded-graphics`, a [`View`] of the whole display or of a band of its rows is an `ImageDrawable`, and any

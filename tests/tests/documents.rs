@@ -14,25 +14,41 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
+/// Finds the module that a path begins with, and in it the rest.
+fn in_a_module(path: &str) {
+    let parts: Vec<&str> = path.split("::").collect();
+    let file = |count: usize| root().join("galpix-core/src").join(parts[..count].join("/")).with_extension("rs");
+    let count = (1..parts.len()).rev().find(|&count| file(count).exists());
+    let count = count.unwrap_or_else(|| panic!("there is no module of {path}"));
+    let source = fs::read_to_string(file(count)).unwrap();
+    for name in &parts[count..] {
+        let defined = source
+            .lines()
+            .filter(|line| !line.trim_start().starts_with("//"))
+            .any(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == *name));
+        assert!(defined, "{path} is not in {}", file(count).display());
+    }
+}
+
 #[test]
 fn the_paper_map_names_functions_and_tests_that_exist() {
     let map = fs::read_to_string(root().join("docs/paper-map.md")).unwrap();
     let (mut functions, mut tests) = (0, 0);
-    for word in quoted(&map) {
-        if word.ends_with(".rs") || word.ends_with('/') {
-            assert!(root().join("tests/tests").join(word).exists(), "there is no test {word}");
-            tests += 1;
-        } else if let Some((module, item)) = word.split_once("::") {
-            let file = root().join("galpix-core/src").join(format!("{module}.rs"));
-            let source = fs::read_to_string(&file).unwrap_or_else(|_| panic!("there is no module {module}"));
-            for name in item.split("::") {
-                let defined = source
-                    .lines()
-                    .filter(|line| !line.trim_start().starts_with("//"))
-                    .any(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == name));
-                assert!(defined, "{word} is not in {}", file.display());
+    for line in map.lines() {
+        let mut of_file = String::new();
+        for word in quoted(line) {
+            if word.ends_with(".rs") || word.ends_with('/') {
+                let file = root().join("tests/tests").join(word);
+                assert!(file.exists(), "there is no test {word}");
+                of_file = fs::read_to_string(file).unwrap_or_default();
+                tests += 1;
+            } else if word.contains("::") {
+                in_a_module(word);
+                functions += 1;
+            } else if word.chars().all(|c| c.is_ascii_lowercase() || c == '_') && !of_file.is_empty() {
+                assert!(of_file.contains(&format!("fn {word}(")), "there is no test {word} in the file before it");
+                tests += 1;
             }
-            functions += 1;
         }
     }
     assert!(functions >= 15 && tests >= 15, "{functions} functions and {tests} tests are named");
