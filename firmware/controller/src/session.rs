@@ -61,6 +61,8 @@ struct Line {
     status: Status,
     /// In lockstep: whether the next frame may be made.
     go: bool,
+    /// Whether the frame that is being made has told how the controller is: its length says nothing of others.
+    asked: bool,
     /// Frames until the next line of the log.
     until_log: u32,
 }
@@ -81,7 +83,7 @@ where
             ticks: B::TICKS_PER_FRAME,
             ..Status::default()
         };
-        let line = Line { decoder: Decoder::new(), status, go: false, until_log: SECOND };
+        let line = Line { decoder: Decoder::new(), status, go: false, asked: false, until_log: SECOND };
         let (tally, lifetime) = (Tally::default(), core::marker::PhantomData);
         let mut session = Self { board, maps, panel, settings, renderer: None, line, overlay: true, tally, lifetime };
         session.choose(0);
@@ -120,7 +122,7 @@ where
             log::late(self.maps.frame(), missed);
         }
         self.present();
-        if !self.line.status.lockstep {
+        if !self.line.status.lockstep && !core::mem::take(&mut self.line.asked) {
             let busy = made.wrapping_sub(begin).wrapping_add(self.board.ticks().wrapping_sub(shown));
             self.line.status.busy = self.line.status.busy.max(busy);
         }
@@ -203,6 +205,7 @@ where
             Asked::Status => {
                 self.say(&Frame::Status(self.status()));
                 self.line.status.busy = 0;
+                self.line.asked = true;
             }
             Asked::Scene(number) if self.choose(number) => {}
             Asked::Scene(_) => return Err(Rejected::UnknownKind),

@@ -17,7 +17,7 @@ const FRAMES: u32 = 240;
 /// frames a second, and no vsync is missed if that is less than the pace.
 const fn meant(board: Board, filling: Filling) -> (u32, f64) {
     match (board, filling) {
-        (Board::Lm3s6965evb, Filling::Ladder) => (4, 60.0),
+        (Board::Lm3s6965evb, Filling::Ladder) => (4, 55.0),
         (Board::Lm3s6965evb, Filling::PushPull) => (3, 130.0),
         (Board::VexpressA9, Filling::Ladder) => (0, 1000.0),
         // The emulator has no faster one.
