@@ -6,7 +6,8 @@
 //! ```
 //!
 //! The picture is what a step makes of the scene of the benches: `all` are all its holes, `slivers` those that are left when
-//! bullet holes are filled; `map` are these in a galpixmap, with the motion of what is filled. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the columns mean is said in
+//! bullet holes are filled; `map` are these in a galpixmap, with the motion of what is filled, by
+//! push-pull with quads unless it is said, and by metamers. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the columns mean is said in
 //! `benches/common/race.rs`.
 
 #[path = "../benches/common/mod.rs"]
@@ -25,11 +26,17 @@ use common::{Maps, Panel};
 use galpix_core::colour::Rgb888;
 use galpix_core::frame::{Controller, Inpainting};
 use galpix_core::galpixel::Static;
+use galpix_core::inpaint::features::Workspace;
 use galpix_core::inpaint::levels;
+use galpix_core::inpaint::metamer::{self, Recipe};
+use galpix_core::inpaint::needs;
+use galpix_core::inpaint::noise;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::picture::Masked;
 use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
 use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
+use galpix_core::inpaint::statistics::Moments;
+use galpix_core::inpaint::tone::Tone;
 use galpix_core::inpaint::validity::Gamma;
 use galpix_core::layout::Full;
 
@@ -79,6 +86,7 @@ fn compare((width, height): (u32, u32), rounds: usize) {
         }
     }
     contenders.extend(on_a_map((width, height)));
+    contenders.extend(metamers((width, height)));
     race(&mut contenders, cells, rounds);
     table(&contenders, cells, TEXTBOOK);
 }
@@ -137,6 +145,45 @@ fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
         Contender::new(name, "map", bytes, Box::new(|| {}), Box::new(run))
     })
     .collect()
+}
+
+/// Metamers in the same map.
+fn metamers((width, height): (u32, u32)) -> Vec<Contender> {
+    let maps = Maps::<Full, _>::new(width, height, Static::<Panel>::new(), &samples(width, height, Motion::Scene));
+    let settings = maps.settings;
+    let mut controller = Controller::new(maps.front, maps.back, maps.scratch).expect("maps that belong together");
+    controller.step(&settings);
+    let controller = Rc::new(RefCell::new(controller));
+    let depth_bits = u32::from(controller.borrow().front().record().depth().bits);
+    let bytes = COPIED * (width * height) as usize;
+    [(Gamma::Half, 5), (Gamma::Half, 3), (Gamma::Zero, 5)]
+        .into_iter()
+        .map(|(gamma, levels)| {
+            let controller = Rc::clone(&controller);
+            let count = levels::cells(width, height);
+            let mut tones = vec![Cell::<Tone>::default(); count];
+            let mut moments = vec![Cell::<Moments>::default(); count];
+            let (mut of_tones, mut of_moments) = (vec![0; state_words(count)], vec![0; state_words(count)]);
+            let mut needed = vec![needs::Tile::default(); needs::tiles(width, height, levels)];
+            let (mut workspace, mut noise) = (Box::new(Workspace::new()), Box::<noise::Tiles>::default());
+            let inpainting = Inpainting::for_depth(depth_bits, gamma);
+            let recipe = Recipe { levels, ..Recipe::new(0, 0) };
+            let run = move || {
+                let mut scratch = metamer::Scratch {
+                    tones: &mut tones,
+                    moments: &mut moments,
+                    states: [&mut of_tones, &mut of_moments],
+                    needs: &mut needed,
+                    workspace: &mut workspace,
+                    noise: &mut noise,
+                };
+                let mut controller = controller.borrow_mut();
+                black_box(controller.synthesise(&settings, &inpainting, &recipe, &mut scratch)).expect("memory enough");
+            };
+            let what = format!("metamers, gamma {}, {levels} levels", gamma.name());
+            Contender::new(what, "map", bytes, Box::new(|| {}), Box::new(run))
+        })
+        .collect()
 }
 
 fn textbook(picture: &Rc<common::holes::Picture>, group: &str, (width, height): (u32, u32)) -> Contender {
