@@ -24,7 +24,7 @@ use common::scene::{Motion, samples};
 use common::textbook::{Pixel, Textbook};
 use common::{Maps, Panel};
 use galpix_core::colour::Rgb888;
-use galpix_core::frame::{Controller, Inpainting};
+use galpix_core::frame::{Controller, Inpainting, Settings};
 use galpix_core::galpixel::Static;
 use galpix_core::inpaint::features::Workspace;
 use galpix_core::inpaint::levels;
@@ -116,13 +116,21 @@ fn ours(
     Contender::new(what, group, bytes, Box::new(|| {}), Box::new(run))
 }
 
-/// The stage as a controller has it: the holes of a galpixmap, with motion, and the depth of the background before.
-fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
+/// A controller that several contenders share.
+type Shared = Rc<RefCell<Controller<'static, Full, Static<Panel>>>>;
+
+/// A controller of the scene after a step, and how that was made.
+fn stepped((width, height): (u32, u32)) -> (Shared, Settings) {
     let maps = Maps::<Full, _>::new(width, height, Static::<Panel>::new(), &samples(width, height, Motion::Scene));
     let settings = maps.settings;
     let mut controller = Controller::new(maps.front, maps.back, maps.scratch).expect("maps that belong together");
     controller.step(&settings);
-    let controller = Rc::new(RefCell::new(controller));
+    (Rc::new(RefCell::new(controller)), settings)
+}
+
+/// The stage as a controller has it: the holes of a galpixmap, with motion, and the depth of the background before.
+fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
+    let (controller, settings) = stepped((width, height));
     let depth_bits = u32::from(controller.borrow().front().record().depth().bits);
     let bytes = COPIED * (width * height) as usize;
     let aware = |gamma| Inpainting::for_depth(depth_bits, gamma);
@@ -149,11 +157,7 @@ fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
 
 /// Metamers in the same map.
 fn metamers((width, height): (u32, u32)) -> Vec<Contender> {
-    let maps = Maps::<Full, _>::new(width, height, Static::<Panel>::new(), &samples(width, height, Motion::Scene));
-    let settings = maps.settings;
-    let mut controller = Controller::new(maps.front, maps.back, maps.scratch).expect("maps that belong together");
-    controller.step(&settings);
-    let controller = Rc::new(RefCell::new(controller));
+    let (controller, settings) = stepped((width, height));
     let depth_bits = u32::from(controller.borrow().front().record().depth().bits);
     let bytes = COPIED * (width * height) as usize;
     [(Gamma::Half, 5), (Gamma::Half, 3), (Gamma::Zero, 5)]
