@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::mean::tie;
 use super::paint::{Moving, Tint};
-use super::push_pull::{Picture, RUN, Value, below, each};
+use super::push_pull::{Picture, RUN, Value, each};
 use super::pyramid::{DEPTH_BITS, Known};
 use super::validity::FULL;
 use crate::galpixel::{Budget, Class};
@@ -126,9 +126,7 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
         let (left, top) = (x << 1, y << 1);
         let inside = left + 1 < grid.width();
         let (Some(upper), Some(lower), true) = (grid.row(top as i32), grid.row(top as i32 + 1), inside) else {
-            return each(below(x, y), |(x, y)| {
-                if x < grid.width() && y < grid.height() { self.known(x, y) } else { Known::default() }
-            });
+            return self.cell_by_cell(x, y);
         };
         let two = |cell: u32| {
             let mut keys = self.map.keys(cell as usize..cell as usize + 2);

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use super::mean::tie;
 use super::paint::Tint;
-use super::push_pull::{Picture, RUN, Value, below, each};
+use super::push_pull::{Picture, RUN, Value};
 use super::pyramid::Known;
 use super::validity::FULL;
 use crate::colour::Colour;
@@ -79,9 +79,7 @@ impl<C: Colour> Picture for Masked<'_, C> {
     fn block(&self, x: u32, y: u32) -> [Known<Tint>; 4] {
         let (left, top) = (x << 1, y << 1);
         if left + 1 >= self.width || top + 1 >= self.height {
-            return each(below(x, y), |(x, y)| {
-                if x < self.width && y < self.height { self.known(x, y) } else { Known::default() }
-            });
+            return self.cell_by_cell(x, y);
         }
         let two = |cell: u32| {
             let pair =

@@ -61,6 +61,12 @@ pub trait Picture {
     /// What is known of the four cells below a cell of level 1; nothing of those beyond the border.
     #[inline(always)]
     fn block(&self, x: u32, y: u32) -> [Known<Self::Value>; 4] {
+        self.cell_by_cell(x, y)
+    }
+
+    /// [`Self::block`] for any block, also one that the border cuts.
+    #[inline(always)]
+    fn cell_by_cell(&self, x: u32, y: u32) -> [Known<Self::Value>; 4] {
         let [width, height] = self.size();
         each(below(x, y), |(x, y)| if x < width && y < height { self.known(x, y) } else { Known::default() })
     }
