@@ -16,6 +16,7 @@ mod fill;
 mod sweep;
 
 pub use fill::fill;
+pub(crate) use fill::{fill_around, fill_bullets};
 pub use sweep::sweep;
 
 use crate::galpixel::{Budget, Class};
@@ -31,44 +32,44 @@ const fn negative(number: i32) -> u32 {
 
 /// All ones for a number that is not 0, else 0. At most 2^31.
 #[inline(always)]
-const fn not_zero(number: u32) -> u32 {
+pub(crate) const fn not_zero(number: u32) -> u32 {
     negative(number.wrapping_neg() as i32)
 }
 
 /// All ones where `a < b`, else 0. Both below 2^31.
 #[inline(always)]
-const fn below(a: u32, b: u32) -> u32 {
+pub(crate) const fn below(a: u32, b: u32) -> u32 {
     negative(a.wrapping_sub(b) as i32)
 }
 
 /// `a` where the mask has ones, else `b`.
 #[inline(always)]
-const fn choose(mask: u32, a: u32, b: u32) -> u32 {
+pub(crate) const fn choose(mask: u32, a: u32, b: u32) -> u32 {
     b ^ (a ^ b) & mask
 }
 
 /// A mask of whose origin the optimiser knows nothing.
 #[inline(always)]
-fn opaque(mask: u32) -> u32 {
+pub(crate) fn opaque(mask: u32) -> u32 {
     core::hint::black_box(mask)
 }
 
 /// All ones for the class of an empty cell, else 0.
 #[inline(always)]
-fn empty(class: u32) -> u32 {
+pub(crate) fn empty(class: u32) -> u32 {
     const { assert!(Class::Empty as u32 == 3, "the only class with both bits set") }
     opaque((class & class >> 1 & 1).wrapping_neg())
 }
 
 /// All ones if these words are those of an empty cell, else 0.
 #[inline(always)]
-fn is_empty(record: &Record, words: &Words) -> u32 {
+pub(crate) fn is_empty(record: &Record, words: &Words) -> u32 {
     empty(record.class().unsigned(words))
 }
 
 /// The words `a` where the mask has ones, else `b`.
 #[inline(always)]
-fn choose_words(record: &Record, mask: u32, a: &Words, b: &Words) -> Words {
+pub(crate) fn choose_words(record: &Record, mask: u32, a: &Words, b: &Words) -> Words {
     let mut chosen = *b;
     for (to, &from) in chosen.iter_mut().zip(a).take(record.words()) {
         *to = choose(mask, from, *to);
@@ -78,7 +79,7 @@ fn choose_words(record: &Record, mask: u32, a: &Words, b: &Words) -> Words {
 
 /// Writes the words of a cell where the mask has ones; reads and writes them in any case.
 #[inline(always)]
-fn merge<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, cell: u32, words: &Words, mask: u32) {
+pub(crate) fn merge<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, cell: u32, words: &Words, mask: u32) {
     let count = map.record().words();
     for (plane, &word) in map.planes_mut().iter_mut().zip(words).take(count) {
         merge_word(plane, cell, word, mask);
@@ -87,7 +88,7 @@ fn merge<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, cell: u32, word
 
 /// Writes a word of a plane where the mask has ones; reads and writes it in any case.
 #[inline(always)]
-fn merge_word(plane: &mut [u32], cell: u32, word: u32, mask: u32) {
+pub(crate) fn merge_word(plane: &mut [u32], cell: u32, word: u32, mask: u32) {
     if let Some(to) = plane.get_mut(cell as usize) {
         *to = choose(mask, word, *to);
     }

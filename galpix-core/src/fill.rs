@@ -77,6 +77,42 @@ impl Rung {
     }
 }
 
+/// What a fill must know beside the map that it fills.
+pub(crate) trait Around {
+    /// What was shown in a cell in the frame before.
+    fn before(&self, cell: u32) -> Option<Words>;
+
+    /// All ones if what the filled map holds in a cell is not its own, so that its winner says nothing about it; else 0.
+    fn foreign(&self, cell: u32) -> u32;
+}
+
+impl<L: Layout, B: Budget<L>> Around for Galpixmap<'_, L, B> {
+    #[inline(always)]
+    fn before(&self, cell: u32) -> Option<Words> {
+        self.words_at(cell)
+    }
+
+    #[inline(always)]
+    fn foreign(&self, _cell: u32) -> u32 {
+        0
+    }
+}
+
+/// Nothing was shown before.
+pub(crate) struct Nothing;
+
+impl Around for Nothing {
+    #[inline(always)]
+    fn before(&self, _cell: u32) -> Option<Words> {
+        None
+    }
+
+    #[inline(always)]
+    fn foreign(&self, _cell: u32) -> u32 {
+        0
+    }
+}
+
 /// Fills the holes of `back`, which was resolved from `front`; counts them into `tally`.
 ///
 /// `winners` is the winner map of that resolution and `edges` the edge map of `front`; without them no hole is a bullet
@@ -90,12 +126,43 @@ pub fn fill<L: Layout, B: Budget<L>>(
     reach: u32,
     tally: &mut Tally,
 ) {
+    fill_around(front, back, winners, edges, rung, reach, tally);
+}
+
+/// [`fill`], whatever was shown before.
+#[inline(always)]
+pub(crate) fn fill_around<L: Layout, B: Budget<L>>(
+    around: &impl Around,
+    back: &mut Galpixmap<'_, L, B>,
+    winners: &mut [u32],
+    edges: &[u32],
+    rung: Rung,
+    reach: u32,
+    tally: &mut Tally,
+) {
     let rounds = rung.rounds(reach);
     let starts = back.grid().starts();
-    let mut filler = Filler::new(front, back, winners, edges, rung, tally);
+    let mut filler = Filler::new(around, back, winners, edges, rung, tally);
     for round in 0..rounds {
         for (y, &row) in (0..).zip(starts) {
             filler.row(y, row, row, round, round + 1 == rounds);
+        }
+    }
+}
+
+/// The bullet holes alone: other holes stay empty, and are not counted.
+pub(crate) fn fill_bullets<L: Layout, B: Budget<L>>(
+    back: &mut Galpixmap<'_, L, B>,
+    winners: &mut [u32],
+    edges: &[u32],
+    reach: u32,
+    tally: &mut Tally,
+) {
+    let starts = back.grid().starts();
+    let mut filler = Filler::new(&Nothing, back, winners, edges, Rung::Bullet, tally);
+    for round in 0..Rung::Bullet.rounds(reach) {
+        for (y, &row) in (0..).zip(starts) {
+            filler.row(y, row, row, round, false);
         }
     }
 }
@@ -130,8 +197,8 @@ impl RowFill<'_> {
     }
 }
 
-struct Filler<'f, 'p, 'q, L, B> {
-    front: &'f Galpixmap<'p, L, B>,
+struct Filler<'f, 'q, A, L, B> {
+    around: &'f A,
     back: &'f mut Galpixmap<'q, L, B>,
     winners: &'f mut [u32],
     edges: &'f [u32],
@@ -145,16 +212,16 @@ struct Filler<'f, 'p, 'q, L, B> {
     right: u32,
 }
 
-impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
+impl<'f, 'q, A: Around, L: Layout, B: Budget<L>> Filler<'f, 'q, A, L, B> {
     fn new(
-        front: &'f Galpixmap<'p, L, B>,
+        around: &'f A,
         back: &'f mut Galpixmap<'q, L, B>,
         winners: &'f mut [u32],
         edges: &'f [u32],
         rung: Rung,
         tally: &'f mut Tally,
     ) -> Self {
-        Self { front, back, winners, edges, rung, tally, before: 0, left: None, right: 0 }
+        Self { around, back, winners, edges, rung, tally, before: 0, left: None, right: 0 }
     }
 
     /// Visits the holes of row `y`, which starts at cell `row`, and at cell `before` of the map before.
@@ -214,8 +281,9 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
 
     /// What the rung puts into a cell that is no bullet hole.
     fn unobscured(&mut self, row: u32, x: u32) -> Words {
-        let record = self.front.record();
-        let before = self.front.words_at(self.before + x).unwrap_or_default();
+        let budget = self.back.budget();
+        let record = budget.record();
+        let before = self.around.before(self.before + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.rung >= Rung::Galdebris && known {
             let beside = if self.rung == Rung::Extend { self.beside(row, x) } else { None };
@@ -257,8 +325,9 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
     /// Whether there was nothing at a place when this round began.
     #[inline(always)]
     fn vacant(&self, x: i32, y: i32, round: u32) -> bool {
-        let winner = self.back.grid().cell(x, y).and_then(|cell| self.winners.get(cell as usize));
-        winner.is_none_or(|&winner| winner >= FILLED + round)
+        let Some(cell) = self.back.grid().cell(x, y) else { return true };
+        let winner = self.winners.get(cell as usize);
+        self.around.foreign(cell) == 0 && winner.is_none_or(|&winner| winner >= FILLED + round)
     }
 
     /// The mean of two pairs of neighbours that face each other: `a` and `b`, `c` and `d`.
@@ -280,7 +349,8 @@ impl<'f, 'p, 'q, L: Layout, B: Budget<L>> Filler<'f, 'p, 'q, L, B> {
         let cell = self.back.grid().cell(x, y)?;
         let winner = *self.winners.get(cell as usize)?;
         let inside = if winner >= FILLED { winner < FILLED + round } else { !on_edge(self.edges, winner) };
-        (inside && self.back.class(cell) == Class::Galpixel).then_some(cell)
+        let own = self.around.foreign(cell) == 0;
+        (inside && own && self.back.class(cell) == Class::Galpixel).then_some(cell)
     }
 
     /// The mean of two cells, field by field, halves upwards; tag and fraction of the luminosity from the first.

@@ -3,7 +3,7 @@
 use crate::constant;
 use crate::edge;
 use crate::error::SetupError;
-use crate::fill::{Rung, fill};
+use crate::fill::{Around, Rung, fill_around};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::inpaint::map::{OfGalpixel, Uncovered};
@@ -139,10 +139,10 @@ impl Scratch<'_> {
 /// Two maps that take turns: the front one is shown while the back one is made from it.
 #[derive(Debug)]
 pub struct Controller<'p, L, B> {
-    front: Galpixmap<'p, L, B>,
-    back: Galpixmap<'p, L, B>,
-    scratch: Scratch<'p>,
-    frame: u32,
+    pub(crate) front: Galpixmap<'p, L, B>,
+    pub(crate) back: Galpixmap<'p, L, B>,
+    pub(crate) scratch: Scratch<'p>,
+    pub(crate) frame: u32,
 }
 
 impl<'p, L: Layout, B: Budget<L>> Controller<'p, L, B> {
@@ -255,21 +255,47 @@ pub fn step<L: Layout, B: Budget<L>>(
     settings: &Settings,
     frame: u32,
 ) -> Tally {
+    let mut tally = move_on(front, back, scratch, settings, frame);
+    fill_holes(front, back, scratch, settings, &mut tally);
+    tally
+}
+
+/// The edge map of `front`, propagation and resolution: `back` is left with its holes.
+#[inline(always)]
+pub(crate) fn move_on<L: Layout, B: Budget<L>>(
+    front: &Galpixmap<'_, L, B>,
+    back: &mut Galpixmap<'_, L, B>,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
+    frame: u32,
+) -> Tally {
     let surfaces = settings.rung.tells_surfaces() && !scratch.edges.is_empty();
     let edges = match settings.work {
         _ if !surfaces => 0,
         Work::Skipping => edge::mark(front, settings.edge_threshold, scratch.edges),
         Work::Constant => edge::mark_all(front, settings.edge_threshold, scratch.edges),
     };
-    let (winners, rounding, rung, reach) = (&mut *scratch.winners, settings.rounding, settings.rung, settings.reach);
+    let (winners, rounding) = (&mut *scratch.winners, settings.rounding);
     let mut tally = match settings.work {
         Work::Skipping => sweep(front, back, winners, rounding, frame),
         Work::Constant => constant::sweep(front, back, winners, rounding, frame),
     };
     tally.edges = edges;
-    match settings.work {
-        Work::Skipping => fill(front, back, winners, scratch.edges, rung, reach, &mut tally),
-        Work::Constant => constant::fill(front, back, winners, scratch.edges, rung, reach, &mut tally),
-    }
     tally
+}
+
+/// The fill ladder.
+#[inline(always)]
+pub(crate) fn fill_holes<L: Layout, B: Budget<L>>(
+    around: &impl Around,
+    back: &mut Galpixmap<'_, L, B>,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
+    tally: &mut Tally,
+) {
+    let (winners, rung, reach) = (&mut *scratch.winners, settings.rung, settings.reach);
+    match settings.work {
+        Work::Skipping => fill_around(around, back, winners, scratch.edges, rung, reach, tally),
+        Work::Constant => constant::fill_around(around, back, winners, scratch.edges, rung, reach, tally),
+    }
 }

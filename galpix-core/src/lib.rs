@@ -13,7 +13,7 @@
 //! 5. [`inpaint`]: what is put there instead where a controller asks for more, from all that is known around it
 //! 6. [`scan_out`]: rows of colour for a display
 //!
-//! [`frame`] is their order; in the mode of [`constant`] work the instructions of 2 and 4 do not depend on the picture. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
+//! [`layers`] lets several maps move apart and shows them together. [`frame`] is their order; in the mode of [`constant`] work the instructions of 2 and 4 do not depend on the picture. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
 //! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
 //! them with units.
 //!
@@ -66,6 +66,7 @@ pub mod galpixmap;
 pub mod graft;
 pub mod grid;
 pub mod inpaint;
+pub mod layers;
 pub mod layout;
 pub mod propagate;
 pub mod record;

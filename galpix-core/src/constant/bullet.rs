@@ -7,7 +7,7 @@
 use super::{below, choose, negative, not_zero, opaque};
 use crate::colour::Colour;
 use crate::edge::on_edge;
-use crate::fill::{FILLED, each_moving_field};
+use crate::fill::{Around, FILLED, each_moving_field};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
@@ -15,7 +15,8 @@ use crate::record::Words;
 use crate::resolve::NOBODY;
 
 /// What is known of the cells around.
-pub(super) struct Surroundings<'s, 'p, L, B> {
+pub(super) struct Surroundings<'s, 'p, A, L, B> {
+    pub around: &'s A,
     pub back: &'s Galpixmap<'p, L, B>,
     pub winners: &'s [u32],
     pub edges: &'s [u32],
@@ -73,7 +74,7 @@ fn chosen(cells: [u32; 4], inside: [u32; 4]) -> Chosen {
     }
 }
 
-impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
+impl<A: Around, L: Layout, B: Budget<L>> Surroundings<'_, '_, A, L, B> {
     /// The mean of the neighbours that lie inside a surface, and all ones if there are any; rubbish and 0 if there are none.
     #[inline(always)]
     pub fn mean(&self, x: i32, y: i32, cell: u32) -> (Words, u32) {
@@ -122,7 +123,8 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
     #[inline(always)]
     fn vacant(&self, place: Place) -> u32 {
         let winner = self.winner(place);
-        negative(winner as i32) & !self.filled_before(winner)
+        let foreign = self.around.foreign(place.cell) & place.exists;
+        negative(winner as i32) & !self.filled_before(winner) & !foreign
     }
 
     /// All ones if what a place holds came from inside of a surface, or is a bullet fill of an earlier round, else 0.
@@ -132,7 +134,7 @@ impl<L: Layout, B: Budget<L>> Surroundings<'_, '_, L, B> {
         let filled = opaque(negative(winner as i32));
         let on_edge = (on_edge(self.edges, winner & !filled) as u32).wrapping_neg();
         let galpixel = opaque(below(self.back.class(place.cell) as u32, 1));
-        galpixel & choose(filled, self.filled_before(winner), !on_edge)
+        galpixel & !self.around.foreign(place.cell) & choose(filled, self.filled_before(winner), !on_edge)
     }
 
     /// The mean of four cells, field by field, halves upwards; tag and fraction of the luminosity from the first.

@@ -2,7 +2,7 @@
 
 use super::bullet::Surroundings;
 use super::{below, choose, choose_words, is_empty, merge_word, opaque};
-use crate::fill::{FILLED, Rung};
+use crate::fill::{Around, FILLED, Nothing, Rung};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
@@ -20,9 +20,23 @@ pub fn fill<L: Layout, B: Budget<L>>(
     reach: u32,
     tally: &mut Tally,
 ) {
+    fill_around(front, back, winners, edges, rung, reach, tally);
+}
+
+/// [`fill`], whatever was shown before.
+#[inline(always)]
+pub(crate) fn fill_around<L: Layout, B: Budget<L>>(
+    around: &impl Around,
+    back: &mut Galpixmap<'_, L, B>,
+    winners: &mut [u32],
+    edges: &[u32],
+    rung: Rung,
+    reach: u32,
+    tally: &mut Tally,
+) {
     let grid = *back.grid();
     let rounds = rung.rounds(reach);
-    let mut filler = Filler { front, back, winners, edges, rung, tally };
+    let mut filler = Filler { around, back, winners, edges, rung, tally };
     for round in 0..rounds {
         for (y, &row) in (0..).zip(grid.starts()) {
             filler.row(row, y, round, round + 1 == rounds);
@@ -30,8 +44,25 @@ pub fn fill<L: Layout, B: Budget<L>>(
     }
 }
 
-struct Filler<'f, 'p, 'q, L, B> {
-    front: &'f Galpixmap<'p, L, B>,
+/// [`crate::fill::fill_bullets`] with constant work.
+pub(crate) fn fill_bullets<L: Layout, B: Budget<L>>(
+    back: &mut Galpixmap<'_, L, B>,
+    winners: &mut [u32],
+    edges: &[u32],
+    reach: u32,
+    tally: &mut Tally,
+) {
+    let grid = *back.grid();
+    let mut filler = Filler { around: &Nothing, back, winners, edges, rung: Rung::Bullet, tally };
+    for round in 0..Rung::Bullet.rounds(reach) {
+        for (y, &row) in (0..).zip(grid.starts()) {
+            filler.row(row, y, round, false);
+        }
+    }
+}
+
+struct Filler<'f, 'q, A, L, B> {
+    around: &'f A,
     back: &'f mut Galpixmap<'q, L, B>,
     winners: &'f mut [u32],
     edges: &'f [u32],
@@ -49,7 +80,7 @@ struct Beside {
     to_come: u32,
 }
 
-impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
+impl<A: Around, L: Layout, B: Budget<L>> Filler<'_, '_, A, L, B> {
     /// Fills the holes of a row; in the last round none is left undecided.
     fn row(&mut self, row: u32, y: i32, round: u32, last: bool) {
         let mut beside = Beside { left: Default::default(), has_left: 0, to_come: 0 };
@@ -62,8 +93,8 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
             let hole = is_empty(self.back.record(), &own);
             beside.to_come = beside.to_come.wrapping_sub(!hole & 1);
             let (mean, bullet) = if self.rung.tells_surfaces() {
-                let (back, winners, edges) = (&*self.back, &*self.winners, self.edges);
-                Surroundings { back, winners, edges, round }.mean(x, y, cell)
+                let (around, back, winners, edges) = (self.around, &*self.back, &*self.winners, self.edges);
+                Surroundings { around, back, winners, edges, round }.mean(x, y, cell)
             } else {
                 (Words::default(), 0)
             };
@@ -105,8 +136,9 @@ impl<L: Layout, B: Budget<L>> Filler<'_, '_, '_, L, B> {
     /// the right end of the run of holes, if anything does.
     #[inline(always)]
     fn unobscured(&mut self, cell: u32, beside: &Beside, right: &Words, counts: u32) -> Words {
-        let record = self.front.record();
-        let before = self.front.words_at(cell).unwrap_or_default();
+        let budget = self.back.budget();
+        let record = budget.record();
+        let before = self.around.before(cell).unwrap_or_default();
         let known = !is_empty(record, &before);
         let mut unknown: Words = Default::default();
         if self.rung != Rung::None {

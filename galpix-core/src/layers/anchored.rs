@@ -1,0 +1,99 @@
+//! Galpixels that stay where they are stored and know their displacement, so that any number of them may want one cell.
+//!
+//! In a map that moves, the losers of a collision are gone. Here a galpixel keeps its cell for as long as it lives; its words make
+//! the same step as anywhere, the cells that it moved are added to its displacement, and it is drawn into another map at the
+//! cell of its own plus its displacement, if it is the smallest by (class, depth, source) there. So an image whose samples do not
+//! lie where they are seen, as that of a depth discontinuity occlusion camera, moves like any other.
+
+use crate::constant::{below, merge, merge_word};
+use crate::frame::Work;
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::propagate::{advance, thresholds};
+use crate::resolve::{self, NOBODY};
+use crate::rounding::Rounding;
+use crate::tally::Tally;
+
+/// Whole cells along the row and along the column from where a galpixel is stored to where it is drawn, each -32768 to 32767: across any map.
+pub type Displacement = [i32; 2];
+
+/// The word of a displacement: x in the low 16 bits, y in the high ones, both clamped to their range.
+#[inline(always)]
+#[must_use]
+pub fn displacement_word([x, y]: Displacement) -> u32 {
+    let clamped = |cells: i32| cells.min(i32::from(i16::MAX)).max(i32::from(i16::MIN)) as u32 & 0xffff;
+    clamped(x) | clamped(y) << 16
+}
+
+/// The displacement of a word.
+#[inline(always)]
+pub(super) const fn displacement(word: u32) -> Displacement {
+    [(word << 16) as i32 >> 16, word as i32 >> 16]
+}
+
+/// Galpixels in the cells where they are stored, with a word of displacement for each.
+#[derive(Debug)]
+pub(super) struct Anchored<'p, L, B> {
+    pub stored: Galpixmap<'p, L, B>,
+    pub displacements: &'p mut [u32],
+}
+
+impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
+    /// Draws what is stored into `drawn`, by a step later where a rounding and a frame counter are given.
+    ///
+    /// Lost is what has no cell at the moment; it stays stored, and may come back.
+    pub fn draw(
+        &mut self,
+        drawn: &mut Galpixmap<'_, L, B>,
+        winners: &mut [u32],
+        step: Option<(Rounding, u32)>,
+        work: Work,
+    ) -> Tally {
+        drawn.clear();
+        winners.fill(NOBODY);
+        let grid = *self.stored.grid();
+        let budget = self.stored.budget();
+        let record = budget.record();
+        let thresholds = step.map(|(rounding, frame)| thresholds(record, rounding, frame));
+        let mut tally = Tally::default();
+        for (y, &start) in (0..).zip(grid.starts()) {
+            let row = start as usize..(start + grid.width()) as usize;
+            if work == Work::Skipping && self.stored.all_empty(row) {
+                continue;
+            }
+            for (x, source) in (0..grid.width() as i32).zip(start..) {
+                let class = self.stored.class(source) as u32;
+                let there = below(class, Class::Empty as u32);
+                if work == Work::Skipping && there == 0 {
+                    continue;
+                }
+                let mut words = self.stored.words_at(source).unwrap_or_default();
+                let Some(place) = self.displacements.get_mut(source as usize) else { return tally };
+                if let Some(thresholds) = &thresholds {
+                    let step = advance::<L, true>(record, thresholds, &mut words);
+                    let [dx, dy] = displacement(*place);
+                    let moved = displacement_word([dx + step.dx, dy + step.dy]);
+                    *place = *place & !there | moved & there;
+                    tally.saturated += step.saturated() & there;
+                    merge(&mut self.stored, source, &words, there);
+                }
+                let [dx, dy] = displacement(*place);
+                let cell = grid.cell(x + dx, y + dy);
+                let within = (cell.is_some() as u32).wrapping_neg();
+                let cell = cell.unwrap_or(0);
+                let incumbent = drawn.key_at(cell).unwrap_or(0);
+                let key = resolve::key(record, &words);
+                let challenges = there & within;
+                // In raster order the incumbent has the smaller source: of equal keys it stays.
+                let wins = challenges & below(key, incumbent);
+                merge(drawn, cell, &words, wins);
+                merge_word(winners, cell, source, wins);
+                tally.moved += there & 1;
+                tally.lost += there & !within & 1;
+                tally.collided += challenges & below(drawn.class_of(incumbent), Class::Empty as u32) & 1;
+            }
+        }
+        tally
+    }
+}

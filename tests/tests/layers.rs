@@ -1,0 +1,85 @@
+//! Layers against what they are made of: maps that move apart, and the smallest by (class, depth, layer) in each cell.
+
+use fixed::types::I32F32;
+use galpix_core::budget::{Bits, Demand};
+use galpix_core::edge;
+use galpix_core::frame::{Controller, Scratch, Settings, Work};
+use galpix_core::galpixel::{Chosen, Class, Galpixel};
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::{Grid, Wings};
+use galpix_core::layers::{Layer, Layers, seat_words};
+use galpix_core::layout::Full;
+
+type Map<'p> = Galpixmap<'p, Full, Chosen<Full>>;
+
+fn budget() -> Chosen<Full> {
+    let bits = Bits::derive(Demand { extent: 64, recog: 8, prop: 8 }).expect("a budget");
+    Chosen::new(bits).expect("it fits")
+}
+
+fn galpixel(colour: u8, depth: f64, velocity: [f64; 2]) -> Galpixel {
+    Galpixel {
+        class: Class::Galpixel,
+        colour: [colour; 3],
+        depth: I32F32::from_num(depth),
+        velocity: [I32F32::from_num(velocity[0]), I32F32::from_num(velocity[1]), I32F32::ZERO],
+        ..Galpixel::default()
+    }
+}
+
+fn colours(map: &Map<'_>) -> Vec<u8> {
+    let grid = *map.grid();
+    (0..grid.height() as i32)
+        .flat_map(|y| (0..grid.width() as i32).map(move |x| (x, y)))
+        .map(|(x, y)| map.rgb888(x, y).expect("a cell")[0])
+        .collect()
+}
+
+#[test]
+fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
+    const WIDTH: u32 = 40;
+    let mut rows = [0; 3];
+    let grid = Grid::new(WIDTH, 3, Wings::NONE, &mut rows).expect("a grid");
+    for (work, anchored) in
+        [(Work::Skipping, false), (Work::Constant, false), (Work::Skipping, true), (Work::Constant, true)]
+    {
+        let words = Map::words(&grid, budget());
+        let mut memory: Vec<Vec<u32>> = (0..5).map(|_| vec![0; words]).collect();
+        let [m0, m1, m2, m3, m4] = memory.as_mut_slice() else { unreachable!() };
+        let map = |memory| Map::new(grid, budget(), memory).expect("a map");
+        let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+        let (mut seats, mut displacements) = (vec![0; seat_words(&grid)], vec![0; grid.cells() as usize]);
+        let scratch = Scratch { winners: &mut winners, edges: &mut edges };
+        let base = Controller::new(map(m0), map(m1), scratch).expect("a base");
+        let layer = if anchored {
+            Layer::anchored(map(m2), &mut displacements, map(m3), map(m4), &mut [], &mut seats)
+        } else {
+            Layer::new(map(m2), map(m3), Scratch::default(), &mut seats)
+        };
+        let mut layers = Layers::new(base, [layer.expect("a layer")]).expect("layers");
+        for y in 0..3 {
+            for x in 0..WIDTH as i32 {
+                layers.layer_mut(0).expect("the base").store(x, y, &galpixel(100 + x as u8, 0.75, [0.0; 2]));
+                if (4..10).contains(&x) {
+                    layers.layer_mut(1).expect("the ball").store(x, y, &galpixel(1 + x as u8, 0.25, [1.5, 0.0]));
+                }
+            }
+        }
+        layers.resolve(work);
+        let settings = Settings { work, ..Settings::for_depth(16) };
+        for frame in 0..20 {
+            let left = 4 + (3 * frame + 1) / 2;
+            let expected: Vec<u8> = (0..WIDTH as i32)
+                .map(|x| if (left..left + 6).contains(&x) { (5 + x - left) as u8 } else { 100 + x as u8 })
+                .collect();
+            let shown = colours(layers.front());
+            assert_eq!(&shown[..WIDTH as usize], &expected[..], "frame {frame}, {work:?}, anchored: {anchored}");
+            for cell in 0..WIDTH {
+                let ball = (left..left + 6).contains(&(cell as i32));
+                assert_eq!(layers.layer_at(cell), usize::from(ball), "frame {frame}, cell {cell}");
+            }
+            let tally = layers.step(&settings);
+            assert_eq!((tally.base.holes, tally.base.lost, tally.base.collided), (0, 0, 0));
+        }
+    }
+}
