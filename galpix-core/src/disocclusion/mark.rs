@@ -70,6 +70,18 @@ const fn motions<L: Layout>() -> usize {
     L::LANES.velocity as usize + L::LANES.acceleration as usize
 }
 
+/// Two rows, a run at a time. Made once for all.
+pub(crate) struct Runs {
+    upper: Lanes,
+    lower: Lanes,
+    /// Not 0 where a pair must be looked at.
+    flags: [u32; RUN],
+}
+
+impl Runs {
+    pub const EMPTY: Self = Self { upper: Lanes::EMPTY, lower: Lanes::EMPTY, flags: [0; RUN] };
+}
+
 /// What is done with each pair of a map.
 pub(crate) struct Marker<'m, 'p, L, B> {
     front: &'m Galpixmap<'p, L, B>,
@@ -111,24 +123,24 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 
     /// Marks what is uncovered in row `y`, which is `here`, and in row `y + 1`, which is `next`, by pairs of one cell in each; and in row `y` by pairs in
     /// it, if `IN_ROW`, and by what lies beyond the border. Both must have begun; an empty one is left out.
-    pub fn rows<const IN_ROW: bool>(&mut self, y: u32, here: &mut [u32], next: &mut [u32]) {
+    pub fn rows<const IN_ROW: bool>(&mut self, runs: &mut Runs, y: u32, here: &mut [u32], next: &mut [u32]) {
         let grid = *self.front.grid();
         let Some(row) = grid.row(y as i32) else { return };
         let below = grid.row(y as i32 + 1);
-        let (mut upper, mut lower, mut flags) = (Lanes::EMPTY, Lanes::EMPTY, [0; RUN]);
+        let Runs { upper, lower, flags } = runs;
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(RUN as u32);
             let with_next = (grid.width() - x).min(RUN as u32 + 1);
             upper.take(self.front, (row + x) as usize..(row + x + with_next) as usize);
             if IN_ROW {
-                self.compare::<0>(upper.first::<0>(), upper.last::<0>(), &mut flags);
-                self.pairs_in_row(&flags, row, x..x + with_next - 1, here);
+                self.compare::<0>(upper.first::<0>(), upper.last::<0>(), flags);
+                self.pairs_in_row(flags, row, x..x + with_next - 1, here);
             }
             if let Some(below) = below {
                 lower.take(self.front, (below + x) as usize..(below + x + cells) as usize);
-                self.compare::<1>(upper.first::<1>(), lower.first::<1>(), &mut flags);
-                self.pairs_between(&flags, [row, below], x..x + cells, here, next);
+                self.compare::<1>(upper.first::<1>(), lower.first::<1>(), flags);
+                self.pairs_between(flags, [row, below], x..x + cells, here, next);
             }
             x += cells;
         }
@@ -224,7 +236,7 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 #[inline(always)]
 fn flagged(flags: &[u32; RUN], columns: Range<u32>) -> impl Iterator<Item = u32> {
     let (eights, _) = flags.as_chunks::<8>();
-    let starts = columns.clone().step_by(8);
+    let starts = (columns.start..).zip(0..).map(|(first, block)| first + 7 * block);
     eights.iter().zip(starts).filter(|(flags, _)| flags.iter().fold(0, |any, flag| any | *flag) != 0).flat_map(
         move |(flags, start)| flags.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0).map(|(_, x)| x),
     )
