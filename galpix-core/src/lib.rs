@@ -57,6 +57,7 @@
 pub mod budget;
 pub mod colour;
 pub mod constant;
+pub mod ddoc;
 pub mod edge;
 pub mod error;
 pub mod fill;
