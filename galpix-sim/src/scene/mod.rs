@@ -73,17 +73,7 @@ pub trait Scene: Sync {
         let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
             return Sample { depth: 1.0, ..Sample::default() };
         };
-        let surface = self.surfaces()[index];
-        let place = surface.place(hit.point, Jet::time(t));
-        Sample {
-            colour: round(colour(surface, &hit, t)),
-            known: Known::Motion,
-            depth: hit.depth,
-            velocity: place.map(|coordinate| coordinate.velocity),
-            acceleration: place.map(|coordinate| coordinate.acceleration),
-            luminosity_rate: surface.luminosity_rate(hit.point),
-            tag: index as u8 + 1,
-        }
+        seen(self.surfaces()[index], index, &hit, t)
     }
 
     /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y and
@@ -93,6 +83,29 @@ pub trait Scene: Sync {
             Some((index, hit)) => self.surfaces()[index].place(hit.point, Jet::constant(t)).map(|place| place.value),
             None => [x, y, 1.0],
         }
+    }
+}
+
+/// The point of one surface, its back's if `back`, that is seen or hidden at (`x`, `y`) at time `t`; nothing if the surface is not there.
+/// As [`Scene::sample`] has it where it is seen.
+#[must_use]
+pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2], t: f64) -> Option<Sample> {
+    let on = *scene.surfaces().get(surface)?;
+    let hit = if back { on.behind(x, y, t) } else { on.hit(x, y, t) };
+    Some(seen(on, surface, &hit?, t))
+}
+
+/// What is known of a point of surface `index` at time `t`.
+fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
+    let place = surface.place(hit.point, Jet::time(t));
+    Sample {
+        colour: round(colour(surface, hit, t)),
+        known: Known::Motion,
+        depth: hit.depth,
+        velocity: place.map(|coordinate| coordinate.velocity),
+        acceleration: place.map(|coordinate| coordinate.acceleration),
+        luminosity_rate: surface.luminosity_rate(hit.point),
+        tag: index as u8 + 1,
     }
 }
 
