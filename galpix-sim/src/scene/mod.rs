@@ -5,6 +5,7 @@
 //! rendered for real at the later time, and every galpixel with the place where its point of the surface truly is.
 
 mod ball;
+mod behind;
 mod crossing;
 mod disc;
 mod drift;
@@ -22,6 +23,8 @@ pub mod texture;
 
 #[cfg(test)]
 mod tests;
+
+pub use behind::{Peel, behind};
 
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
@@ -70,19 +73,9 @@ pub trait Scene: Sync {
     /// The surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is, the world is
     /// black, still and infinitely far.
     fn sample(&self, x: f64, y: f64, t: f64) -> Sample {
-        let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
-            return Sample { depth: 1.0, ..Sample::default() };
-        };
-        let surface = self.surfaces()[index];
-        let place = surface.place(hit.point, Jet::time(t));
-        Sample {
-            colour: round(colour(surface, &hit, t)),
-            known: Known::Motion,
-            depth: hit.depth,
-            velocity: place.map(|coordinate| coordinate.velocity),
-            acceleration: place.map(|coordinate| coordinate.acceleration),
-            luminosity_rate: surface.luminosity_rate(hit.point),
-            tag: index as u8 + 1,
+        match nearest(self.surfaces(), x, y, t) {
+            Some((index, hit)) => sample_of(self.surfaces(), index, &hit, t),
+            None => Sample { depth: 1.0, ..Sample::default() },
         }
     }
 
@@ -100,6 +93,21 @@ pub trait Scene: Sync {
 fn nearest(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64) -> Option<(usize, Hit)> {
     let hits = surfaces.iter().enumerate().filter_map(|(index, surface)| Some((index, surface.hit(x, y, t)?)));
     hits.min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
+}
+
+/// What an update says of a point of surface `index` that is met at time `t`.
+fn sample_of(surfaces: &[&dyn Surface], index: usize, hit: &Hit, t: f64) -> Sample {
+    let surface = surfaces[index];
+    let place = surface.place(hit.point, Jet::time(t));
+    Sample {
+        colour: round(colour(surface, hit, t)),
+        known: Known::Motion,
+        depth: hit.depth,
+        velocity: place.map(|coordinate| coordinate.velocity),
+        acceleration: place.map(|coordinate| coordinate.acceleration),
+        luminosity_rate: surface.luminosity_rate(hit.point),
+        tag: index as u8 + 1,
+    }
 }
 
 /// The colour of a point at time `t`: luminosity is added alike to each of the three channels.

@@ -21,6 +21,11 @@ pub trait Surface: Sync {
     /// The point seen at display position (`x`, `y`) (pixels) at `t` (frames), if the surface is there.
     fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit>;
 
+    /// The point at which the line of sight leaves the surface, if it encloses something: its back, which its front covers.
+    fn back(&self, _x: f64, _y: f64, _t: f64) -> Option<Hit> {
+        None
+    }
+
     /// Where `point` is at `t`: x and y in pixels, normalised depth; with derivatives if `t` has them.
     fn place(&self, point: Point, t: Jet) -> [Jet; 3];
 
