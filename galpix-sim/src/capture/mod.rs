@@ -75,6 +75,8 @@ pub struct Capture {
     pub frames: u32,
     /// The update.
     pub update: Update,
+    /// What is known behind the update's samples, over the same cells; cells without are empty.
+    pub hidden: Option<Update>,
     /// In ascending frames.
     pub truths: Vec<Truth>,
     /// What was known.
@@ -106,7 +108,7 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     let update = samples::assemble(&manifest, &picture, &distances, &motion, &mut census);
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
     let truths = truths(&manifest, folder, size)?;
-    Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, truths, census })
+    Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, hidden: None, truths, census })
 }
 
 fn truths(manifest: &Manifest, folder: &Path, size: Size) -> Result<Vec<Truth>, CaptureError> {

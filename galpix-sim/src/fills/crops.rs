@@ -1,5 +1,7 @@
 //! What each fill shows around the largest disocclusion, beside the truth.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::holes::Holes;
@@ -32,7 +34,7 @@ pub struct Largest {
 #[derive(Clone, Debug)]
 pub struct Crop {
     /// What it shows.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The part, not magnified.
     pub picture: Picture,
 }
@@ -49,8 +51,8 @@ pub fn largest(holes: &[Holes]) -> Option<Largest> {
 
 /// The part of a picture around the area.
 #[must_use]
-pub fn crop(name: &'static str, picture: &Picture, at: &Largest) -> Crop {
-    Crop { name, picture: picture.crop(at.left, at.top, at.width, at.height) }
+pub fn crop(name: impl Into<Cow<'static, str>>, picture: &Picture, at: &Largest) -> Crop {
+    Crop { name: name.into(), picture: picture.crop(at.left, at.top, at.width, at.height) }
 }
 
 /// The truth there, and what the warp left open.
@@ -77,7 +79,7 @@ mod tests {
     #[test]
     fn pixels_become_squares() {
         let picture = Picture { width: 2, height: 1, pixels: vec![[1; 3], [2; 3]] };
-        let magnified = Crop { name: "", picture }.magnified(2);
+        let magnified = Crop { name: "".into(), picture }.magnified(2);
         assert_eq!((magnified.width, magnified.height), (4, 2));
         assert_eq!(magnified.pixels.iter().map(|pixel| pixel[0]).collect::<Vec<_>>(), [1, 1, 2, 2, 1, 1, 2, 2]);
     }

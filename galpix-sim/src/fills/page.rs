@@ -92,9 +92,9 @@ fn crops(source: &SourceReport) -> String {
             magnified.width,
             magnified.height,
             Text(&source.source),
-            Text(crop.name),
+            Text(&crop.name),
             STANDARD.encode(bytes),
-            Text(crop.name)
+            Text(&crop.name)
         )
     };
     let figures: String = source.crops.iter().map(shown).collect();

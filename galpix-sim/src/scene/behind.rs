@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 
 use super::surface::{Hit, Surface};
-use super::{Scene, sample_of};
+use super::{Scene, seen};
 use crate::update::{Known, Sample, Update};
 
 /// How layers are peeled off.
@@ -68,14 +68,14 @@ fn peeled(surfaces: &[&dyn Surface], [x, y]: [f64; 2], t: f64, peel: &Peel) -> V
         }
         behind
     });
-    separate.take(peel.layers).map(|(index, hit)| sample_of(surfaces, index, &hit, t)).collect()
+    separate.take(peel.layers).map(|(index, hit)| seen(surfaces[index], index, &hit, t)).collect()
 }
 
 /// All surfaces at a place of the display in order of depth; of two at the same depth the earlier one first.
 fn all(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64, backs: bool) -> Vec<(usize, Hit)> {
     let mut hits: Vec<(usize, Hit)> = Vec::new();
     for (index, surface) in surfaces.iter().enumerate() {
-        let back = if backs { surface.back(x, y, t) } else { None };
+        let back = if backs { surface.behind(x, y, t) } else { None };
         hits.extend(surface.hit(x, y, t).into_iter().chain(back).map(|hit| (index, hit)));
     }
     hits.sort_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth));
@@ -149,18 +149,18 @@ mod tests {
     fn a_globe_has_a_back_where_the_line_of_sight_leaves_it() {
         let sphere = find("sphere").unwrap();
         let globe = sphere.surfaces()[2];
-        let mut seen = 0;
+        let mut met = 0;
         for (x, y) in (0..144).flat_map(|y| (0..192).map(move |x| (f64::from(x), f64::from(y)))) {
-            let (front, back) = (globe.hit(x, y, 0.0), globe.back(x, y, 0.0));
+            let (front, back) = (globe.hit(x, y, 0.0), globe.behind(x, y, 0.0));
             assert_eq!(front.is_some(), back.is_some());
             if let (Some(front), Some(back)) = (front, back) {
-                seen += 1;
+                met += 1;
                 assert!(front.depth <= back.depth);
                 let place = globe.place(back.point, super::super::jet::Jet::constant(0.0)).map(|place| place.value);
                 assert!((place[0] - x).abs() < 1e-9 && (place[1] - y).abs() < 1e-9, "{place:?}");
                 assert!((place[2] - back.depth).abs() < 1e-12);
             }
         }
-        assert!(seen > 1000, "{seen}");
+        assert!(met > 1000, "{met}");
     }
 }

@@ -73,10 +73,10 @@ pub trait Scene: Sync {
     /// The surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is, the world is
     /// black, still and infinitely far.
     fn sample(&self, x: f64, y: f64, t: f64) -> Sample {
-        match nearest(self.surfaces(), x, y, t) {
-            Some((index, hit)) => sample_of(self.surfaces(), index, &hit, t),
-            None => Sample { depth: 1.0, ..Sample::default() },
-        }
+        let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
+            return Sample { depth: 1.0, ..Sample::default() };
+        };
+        seen(self.surfaces()[index], index, &hit, t)
     }
 
     /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y and
@@ -89,15 +89,17 @@ pub trait Scene: Sync {
     }
 }
 
-/// The foremost surface at a place of the display.
-fn nearest(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64) -> Option<(usize, Hit)> {
-    let hits = surfaces.iter().enumerate().filter_map(|(index, surface)| Some((index, surface.hit(x, y, t)?)));
-    hits.min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
+/// The point of one surface, its back's if `back`, that is seen or hidden at (`x`, `y`) at time `t`; nothing if the surface is not there.
+/// As [`Scene::sample`] has it where it is seen.
+#[must_use]
+pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2], t: f64) -> Option<Sample> {
+    let on = *scene.surfaces().get(surface)?;
+    let hit = if back { on.behind(x, y, t) } else { on.hit(x, y, t) };
+    Some(seen(on, surface, &hit?, t))
 }
 
-/// What an update says of a point of surface `index` that is met at time `t`.
-fn sample_of(surfaces: &[&dyn Surface], index: usize, hit: &Hit, t: f64) -> Sample {
-    let surface = surfaces[index];
+/// What is known of a point of surface `index` at time `t`.
+fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
     let place = surface.place(hit.point, Jet::time(t));
     Sample {
         colour: round(colour(surface, hit, t)),
@@ -108,6 +110,12 @@ fn sample_of(surfaces: &[&dyn Surface], index: usize, hit: &Hit, t: f64) -> Samp
         luminosity_rate: surface.luminosity_rate(hit.point),
         tag: index as u8 + 1,
     }
+}
+
+/// The foremost surface at a place of the display.
+fn nearest(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64) -> Option<(usize, Hit)> {
+    let hits = surfaces.iter().enumerate().filter_map(|(index, surface)| Some((index, surface.hit(x, y, t)?)));
+    hits.min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
 }
 
 /// The colour of a point at time `t`: luminosity is added alike to each of the three channels.
