@@ -73,8 +73,8 @@ pub struct Ran {
     pub loaded: LoadTally,
     /// What entered with each layer beside it.
     pub beside: Vec<LoadTally>,
-    /// How many samples of each layer beside it the display ever showed.
-    pub used: Vec<u32>,
+    /// For each sample, by its number in [`Frame::origins`], whether the display ever showed it.
+    pub used: Vec<bool>,
 }
 
 /// One frame as the display shows it, and what is known about it.
@@ -87,8 +87,6 @@ pub struct Frame<'f, L> {
     pub time: Duration,
     map: &'f Galpixmap<'f, L, Chosen<L>>,
     origins: &'f [u32],
-    /// Samples of the update.
-    cells: usize,
 }
 
 /// The engine over owned memory.
@@ -192,7 +190,7 @@ impl<L: Layout> Engine<L> {
         Ok(Ran { loaded, beside: loaded_beside, used })
     }
 
-    /// Shows the update and `frames` frames; returns how many samples of each layer beside it were ever shown.
+    /// Shows the update and `frames` frames; returns which samples were ever shown.
     fn frames<'p>(
         &self,
         mut show: impl Show<'p, L, Chosen<L>>,
@@ -200,7 +198,7 @@ impl<L: Layout> Engine<L> {
         beside: &[Beside<'_>],
         frames: u32,
         visit: Visit<'_, L>,
-    ) -> Vec<u32> {
+    ) -> Vec<bool> {
         let grid = *show.front().grid();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         let mut origins = Origins::new(update, beside);
@@ -217,9 +215,9 @@ impl<L: Layout> Engine<L> {
                 origins.follow(&show, beside);
             }
             origins.look(&show, beside, display_cells(&grid));
-            visit(&Frame { number, tally, time, map: show.front(), origins: &origins.shown, cells: update.samples.len() });
+            visit(&Frame { number, tally, time, map: show.front(), origins: &origins.shown });
         }
-        origins.used()
+        origins.used
     }
 }
 
@@ -319,11 +317,10 @@ impl<L: Layout> Frame<'_, L> {
         display_cells(self.map.grid()).map(|cell| self.origins[cell as usize] != NO_ORIGIN).collect()
     }
 
-    /// How many pixels of the display show a galpixel of a layer beside the update.
-    #[must_use]
-    pub fn from_beside(&self) -> u32 {
-        let beside = |cell: u32| (self.cells..NO_ORIGIN as usize).contains(&(self.origins[cell as usize] as usize));
-        display_cells(self.map.grid()).filter(|&cell| beside(cell)).count() as u32
+    /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for each layer above
+    /// the base; [`NO_ORIGIN`] where it shows none.
+    pub fn origins(&self) -> impl Iterator<Item = u32> {
+        display_cells(self.map.grid()).map(|cell| self.origins[cell as usize])
     }
 
     /// The map.
@@ -332,14 +329,13 @@ impl<L: Layout> Frame<'_, L> {
         self.map
     }
 
-    /// Every galpixel of the update that is still shown: its sample, and its place (x, y) in cells of the map. What comes from a layer
-    /// beside it is not among them.
+    /// Every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x, y) in cells of the map.
     pub fn places(&self) -> impl Iterator<Item = (u32, [f64; 2])> {
         let grid = *self.map.grid();
         (0..grid.height() as i32).flat_map(move |y| {
             (0..grid.width() as i32).filter_map(move |x| {
                 let origin = *self.origins.get(grid.cell(x, y)? as usize)?;
-                if origin as usize >= self.cells {
+                if origin == NO_ORIGIN {
                     return None;
                 }
                 let offset = self.map.load(x, y)?.offset.map(|offset| offset.to_num::<f64>());

@@ -238,15 +238,17 @@ fn run_as<L: Layout>(
     let beside: Vec<Beside<'_>> = carried.layers.iter().map(hidden::Layer::beside).collect();
     let hold = update.picture();
     let mut reports = Vec::with_capacity(frames as usize);
-    let ran = engine.run_layers(update, &beside, frames, |frame| {
+    let ran = engine.run_layers(&carried.base, &beside, frames, |frame| {
         let picture = frame.picture();
         let truth = source.truth(frame.number);
         let reached = frame.reached();
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
             let truth = truth.map(|truth| compare(&picture, &hold, &truth, &reached, request.perceptual));
-            let report = report(frame, compare::position(source, update, frame), truth);
-            let from_hidden = (request.way != Way::ONE).then(|| frame.from_beside());
+            let position = compare::position(source, update, frame, |origin| carried.first(origin));
+            let report = report(frame, position, truth);
+            let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;
+            let from_hidden = (request.way != Way::ONE).then(hidden);
             reports.push(FrameReport { from_hidden, ..report });
         }
     })?;

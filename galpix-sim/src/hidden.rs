@@ -6,8 +6,6 @@
 
 mod cull;
 
-use std::time::{Duration, Instant};
-
 use galpix_core::galpixel::Chosen;
 use galpix_core::layers::Displacement;
 use galpix_core::layout::Layout;
@@ -15,7 +13,7 @@ use serde::Serialize;
 
 pub use cull::{Culling, culling};
 
-use crate::engine::{Beside, EngineError, MAX_BESIDE, Ran};
+use crate::engine::{Beside, EngineError, NO_ORIGIN, Ran};
 use crate::experiment::Source;
 use crate::scene::{self, Peel};
 use crate::update::{Known, Sample, Update};
@@ -34,8 +32,19 @@ pub enum Kind {
         /// The separation.
         separation: f64,
     },
-    /// Every surface behind the first one, each in a layer of its own: a bound, no way to ship.
+    /// Every surface, whole, in a layer of its own: a bound, no way to ship.
     Unlimited,
+}
+
+/// Which of two surfaces in a cell belongs to the base.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Arrangement {
+    /// The one that is seen. What is behind is in a layer of its own.
+    Nearer,
+    /// The one behind, where there is one. What covers something is in a layer of its own: it takes nothing away of what it passes in
+    /// front of, and its bullet holes are closed before anything shines through.
+    #[default]
+    Farther,
 }
 
 /// What is handed over beside the update.
@@ -43,13 +52,15 @@ pub enum Kind {
 pub struct Way {
     /// Where the samples come from.
     pub kind: Kind,
+    /// How they are put into layers; each of more than two surfaces has a layer of its own.
+    pub arrangement: Arrangement,
     /// Whether only those are handed over that the disocclusion map of the first layer says can be uncovered before the next update.
     pub culled: bool,
 }
 
 impl Way {
     /// The first layer alone.
-    pub const ONE: Self = Self { kind: Kind::None, culled: false };
+    pub const ONE: Self = Self { kind: Kind::None, arrangement: Arrangement::Farther, culled: false };
 
     /// The name in tables and files.
     #[must_use]
@@ -60,7 +71,11 @@ impl Way {
             Kind::Second { .. } => "second, separated",
             Kind::Unlimited => "unlimited",
         };
-        if self.culled { format!("{kind}, culled") } else { kind.to_owned() }
+        let behind = match self.arrangement {
+            Arrangement::Nearer if self.kind != Kind::None => ", behind",
+            _ => "",
+        };
+        format!("{kind}{behind}{}", if self.culled { ", culled" } else { "" })
     }
 }
 
@@ -79,9 +94,11 @@ pub enum Layer {
 }
 
 /// What is handed over.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Carried {
-    /// From near to far.
+    /// Layer 0.
+    pub base: Update,
+    /// The layers beside it.
     pub layers: Vec<Layer>,
     /// Samples that the source has behind its first layer.
     pub offered: u32,
@@ -89,8 +106,8 @@ pub struct Carried {
     pub kept: u32,
     /// The disocclusion map that decided, where one did.
     pub culling: Option<Culling>,
-    /// Processor time of the map and of leaving out what it says; the update is not shown before.
-    pub time: Duration,
+    /// For each sample, by its number in [`crate::engine::Frame::origins`], whether the first layer covers it.
+    hidden: Vec<bool>,
 }
 
 /// What a run with samples behind the first layer reports.
@@ -112,8 +129,23 @@ impl HiddenReport {
     /// Of what was handed over, and of the run with it.
     #[must_use]
     pub fn of(way: Way, carried: &Carried, ran: &Ran) -> Self {
-        let Carried { layers, offered, kept, .. } = carried;
-        Self { way: way.name(), layers: layers.len(), offered: *offered, kept: *kept, used: ran.used.iter().sum() }
+        let Carried { layers, offered, kept, hidden, .. } = carried;
+        let used = ran.used.iter().zip(hidden).filter(|&(&used, &hidden)| used && hidden).count() as u32;
+        Self { way: way.name(), layers: layers.len(), offered: *offered, kept: *kept, used }
+    }
+}
+
+impl Carried {
+    /// Whether the first layer covered this sample.
+    #[must_use]
+    pub fn is_hidden(&self, origin: u32) -> bool {
+        self.hidden.get(origin as usize).copied().unwrap_or(false)
+    }
+
+    /// The cell of the update whose sample this one is, if it is one of the first layer's.
+    #[must_use]
+    pub fn first(&self, origin: u32) -> Option<usize> {
+        (origin != NO_ORIGIN && !self.is_hidden(origin)).then(|| origin as usize % self.base.samples.len().max(1))
     }
 }
 
@@ -121,6 +153,12 @@ impl Layer {
     /// Its samples.
     #[must_use]
     pub const fn update(&self) -> &Update {
+        match self {
+            Self::Moving(update) | Self::Anchored { update, .. } => update,
+        }
+    }
+
+    fn into_update(self) -> Update {
         match self {
             Self::Moving(update) | Self::Anchored { update, .. } => update,
         }
@@ -151,7 +189,7 @@ impl Layer {
     }
 }
 
-/// What a source has behind its first layer; `None` if it has nothing of this kind.
+/// What a source has behind its first layer, or all that it has if that is unlimited; `None` if it has nothing of this kind.
 #[must_use]
 pub fn offered(source: &Source, kind: Kind) -> Option<Vec<Layer>> {
     let layers = match (kind, source) {
@@ -159,9 +197,7 @@ pub fn offered(source: &Source, kind: Kind) -> Option<Vec<Layer>> {
         (Kind::Second { separation }, Source::Scene(scene)) => {
             scene::behind(*scene, 0.0, &Peel { layers: 1, separation, backs: true })
         }
-        (Kind::Unlimited, Source::Scene(scene)) => {
-            scene::behind(*scene, 0.0, &Peel { layers: MAX_BESIDE, separation: 0.0, backs: true })
-        }
+        (Kind::Unlimited, Source::Scene(scene)) => scene::each(*scene, 0.0),
         (Kind::Second { separation }, Source::Capture(capture)) => {
             vec![apart(&capture.update, capture.hidden.as_ref()?, separation)]
         }
@@ -179,8 +215,8 @@ fn apart(first: &Update, second: &Update, separation: f64) -> Update {
     Update { samples: first.samples.iter().zip(&second.samples).map(keep).collect(), ..second.clone() }
 }
 
-/// What a source hands over beside its update in a way, for `frames` frames until the next one, quantised to a budget; `None` if it
-/// has nothing of this kind.
+/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget; `None` if it has nothing of this
+/// kind.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn carry<L: Layout>(
@@ -190,26 +226,88 @@ pub fn carry<L: Layout>(
     budget: Chosen<L>,
     frames: u32,
 ) -> Result<Option<Carried>, EngineError> {
-    let Some(mut layers) = offered(source, way.kind) else { return Ok(None) };
-    let count = |layers: &[Layer]| -> u32 {
-        let known = |layer: &Layer| layer.update().samples.iter().filter(|s| s.known == Known::Motion).count() as u32;
-        layers.iter().map(known).sum()
-    };
-    let offered = count(&layers);
-    let started = Instant::now();
+    let Some(layers) = offered(source, way.kind) else { return Ok(None) };
     let culling = if way.culled && !layers.is_empty() { Some(culling(update, budget, frames)?) } else { None };
+    Ok(Some(match way.kind {
+        Kind::Unlimited => unlimited(update, layers, culling),
+        _ => arranged(update, layers, way.arrangement, culling),
+    }))
+}
+
+/// A first layer and what is behind it, put into layers.
+fn arranged(update: &Update, mut layers: Vec<Layer>, arrangement: Arrangement, culling: Option<Culling>) -> Carried {
+    let covering = covering(&layers, update.samples.len());
+    let offered = count(&layers);
     if let Some(culling) = &culling {
-        for layer in &mut layers {
-            let uncovered: Vec<bool> = (0..layer.update().samples.len())
-                .map(|stored| layer.seen_at(stored).is_some_and(|cell| culling.covers(cell)))
-                .collect();
-            for (sample, uncovered) in layer.update_mut().samples.iter_mut().zip(uncovered) {
-                if !uncovered {
-                    sample.known = Known::ColourOnly;
-                }
+        layers.iter_mut().for_each(|layer| cull(layer, culling, &[]));
+    }
+    let kept = count(&layers);
+    let mut base = update.clone();
+    let mut hidden = vec![false; base.samples.len()];
+    hidden.resize(base.samples.len() * (1 + layers.len()), true);
+    if let (Arrangement::Farther, Some(Layer::Moving(second))) = (arrangement, layers.first_mut()) {
+        let (of_base, of_layer) = hidden.split_at_mut(covering.len());
+        for (cell, _) in covering.iter().enumerate().filter(|&(_, &covering)| covering) {
+            std::mem::swap(&mut base.samples[cell], &mut second.samples[cell]);
+            std::mem::swap(&mut of_base[cell], &mut of_layer[cell]);
+        }
+    }
+    Carried { base, offered, kept, layers, culling, hidden }
+}
+
+/// Surfaces that are whole: what is seen of them is not hidden, and never left out. The largest one is the base.
+fn unlimited(update: &Update, mut surfaces: Vec<Layer>, culling: Option<Culling>) -> Carried {
+    surfaces.sort_by_key(|surface| std::cmp::Reverse(count(std::slice::from_ref(surface))));
+    let seen = |surface: &Layer| -> Vec<bool> {
+        let samples = surface.update().samples.iter().zip(&update.samples);
+        samples.map(|(own, seen)| own.known == Known::Motion && own.tag == seen.tag).collect()
+    };
+    let seen: Vec<Vec<bool>> = surfaces.iter().map(seen).collect();
+    let first: u32 = seen.iter().flatten().map(|&seen| u32::from(seen)).sum();
+    let offered = count(&surfaces) - first;
+    if let Some(culling) = &culling {
+        for (surface, seen) in surfaces.iter_mut().zip(&seen) {
+            cull(surface, culling, seen);
+        }
+    }
+    let kept = count(&surfaces) - first;
+    let mut base = surfaces.remove(0).into_update();
+    // Where no surface is, the world is black and infinitely far.
+    for (own, seen) in base.samples.iter_mut().zip(&update.samples).filter(|(_, seen)| seen.tag == 0) {
+        *own = *seen;
+    }
+    let hidden = seen.into_iter().flatten().map(|seen| !seen).collect();
+    Carried { base, offered, kept, layers: surfaces, culling, hidden }
+}
+
+fn count(layers: &[Layer]) -> u32 {
+    let known = |layer: &Layer| layer.update().samples.iter().filter(|s| s.known == Known::Motion).count() as u32;
+    layers.iter().map(known).sum()
+}
+
+/// Which cells have something behind what is seen.
+fn covering(layers: &[Layer], cells: usize) -> Vec<bool> {
+    let mut covering = vec![false; cells];
+    for layer in layers {
+        for (stored, _) in layer.update().samples.iter().enumerate().filter(|(_, s)| s.known == Known::Motion) {
+            if let Some(cell) = layer.seen_at(stored).and_then(|cell| covering.get_mut(cell)) {
+                *cell = true;
             }
         }
     }
-    let time = started.elapsed();
-    Ok(Some(Carried { offered, kept: count(&layers), layers, culling, time }))
+    covering
+}
+
+/// Leaves out what cannot be uncovered, but for what is `seen`.
+fn cull(layer: &mut Layer, culling: &Culling, seen: &[bool]) {
+    let cells = 0..layer.update().samples.len();
+    let keep = |stored: usize| {
+        seen.get(stored) == Some(&true) || layer.seen_at(stored).is_some_and(|cell| culling.covers(cell))
+    };
+    let keep: Vec<bool> = cells.map(keep).collect();
+    for (sample, keep) in layer.update_mut().samples.iter_mut().zip(keep) {
+        if !keep {
+            *sample = Sample { known: Known::ColourOnly, ..*sample };
+        }
+    }
 }

@@ -17,8 +17,8 @@ pub(super) struct Origins {
     own: Vec<Vec<u32>>,
     /// For each cell of what is shown.
     pub shown: Vec<u32>,
-    /// For each sample of a layer behind the update, whether the display ever showed it.
-    used: Vec<bool>,
+    /// For each sample, whether the display ever showed it.
+    pub used: Vec<bool>,
     cells: usize,
 }
 
@@ -34,7 +34,7 @@ impl Origins {
                 known.map(|(origin, sample)| if sample.known == Known::Motion { origin } else { NO_ORIGIN }).collect()
             })
             .collect();
-        Self { shown: own[0].clone(), used: vec![false; beside.len() * cells], own, cells }
+        Self { shown: own[0].clone(), used: vec![false; own.len() * cells], own, cells }
     }
 
     /// Follows a step; `beside` are the layers that it was made with.
@@ -69,16 +69,10 @@ impl Origins {
         });
         self.shown = shown.collect();
         for cell in seen {
-            let hidden = (self.shown[cell as usize] as usize).checked_sub(self.cells);
-            if let Some(used) = hidden.and_then(|sample| self.used.get_mut(sample)) {
+            if let Some(used) = self.used.get_mut(self.shown[cell as usize] as usize) {
                 *used = true;
             }
         }
-    }
-
-    /// How many samples of each layer behind the update the display ever showed.
-    pub fn used(&self) -> Vec<u32> {
-        self.used.chunks(self.cells.max(1)).map(|layer| layer.iter().filter(|&&used| used).count() as u32).collect()
     }
 }
 

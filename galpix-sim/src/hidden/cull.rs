@@ -1,5 +1,8 @@
 //! The disocclusion map of an update, as a display controller would make it: of the quantised map.
 
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
 use galpix_core::disocclusion::{self, Reach, Tally};
 use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
@@ -16,6 +19,8 @@ pub struct Culling {
     pub extents: Vec<u32>,
     /// What was counted.
     pub tally: Tally,
+    /// Processor time that it took.
+    pub time: Duration,
 }
 
 impl Culling {
@@ -37,6 +42,7 @@ pub fn culling<L: Layout>(update: &Update, budget: Chosen<L>, frames: u32) -> Re
     load(update, &mut map);
     let mut extents = vec![0; grid.cells() as usize];
     let reach = Reach::new(frames, u32::from(map.record().depth().bits));
+    let started = ThreadTime::now();
     let tally = disocclusion::map(&map, &mut extents, &reach);
-    Ok(Culling { extents, tally })
+    Ok(Culling { extents, tally, time: started.elapsed() })
 }

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::experiment::{self, ExperimentError, Request, Source};
 use crate::fills::crops;
 use crate::fills::holes::{self, Holes, count};
-use crate::hidden::{self, Kind, SEPARATION, Way};
+use crate::hidden::{self, Arrangement, Kind, SEPARATION, Way};
 use crate::metric;
 use crate::picture::Picture;
 use report::{FrameCells, SourceReport, WayFrame, WayReport};
@@ -34,8 +34,14 @@ pub struct Plan {
 /// All of them: the first layer alone, and each kind as it comes and culled.
 #[must_use]
 pub fn ways(separation: f64) -> Vec<Way> {
-    let kinds = [Kind::Second { separation: 0.0 }, Kind::Second { separation }, Kind::Unlimited];
-    let both = kinds.iter().flat_map(|&kind| [false, true].map(|culled| Way { kind, culled }));
+    let whole = Way { kind: Kind::Second { separation }, ..Way::ONE };
+    let ways = [
+        Way { kind: Kind::Second { separation: 0.0 }, ..whole },
+        Way { arrangement: Arrangement::Nearer, ..whole },
+        whole,
+        Way { kind: Kind::Unlimited, ..whole },
+    ];
+    let both = ways.iter().flat_map(|&way| [false, true].map(|culled| Way { culled, ..way }));
     std::iter::once(Way::ONE).chain(both).collect()
 }
 

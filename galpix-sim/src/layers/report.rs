@@ -45,8 +45,8 @@ pub struct WayReport {
     pub time: Option<Time>,
     /// That time by the time of a frame of the first layer alone, in the same run.
     pub x_one: Option<f64>,
-    /// Processor time of the disocclusion map and of leaving out what it says, microseconds an update.
-    pub update_us: f64,
+    /// Processor time of the disocclusion map, microseconds an update.
+    pub update_us: Option<f64>,
     /// Missing cells of all frames.
     pub missing: u64,
     /// Of the disoccluded cells of all frames, those that are missing.
@@ -98,7 +98,7 @@ impl WayReport {
             hidden: None,
             time: None,
             x_one: None,
-            update_us: 0.0,
+            update_us: None,
             missing: frames.iter().map(|frame| frame.missing).sum(),
             disoccluded: frames.iter().map(|frame| frame.disoccluded).sum(),
             psnr_db: mean(|frame| frame.psnr_db),

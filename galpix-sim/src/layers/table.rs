@@ -22,7 +22,7 @@ const COLUMNS: [Column; 12] = [
     ("us/frame", 1, |way| way.time.map(|time| time.frame_us)),
     ("x one", 2, |way| way.x_one),
     ("x copy", 2, |way| way.time.map(|time| time.x_copy)),
-    ("us/update", 1, |way| (way.update_us > 0.0).then_some(way.update_us)),
+    ("us/update", 1, |way| way.update_us),
 ];
 
 /// A source as text.
@@ -37,10 +37,10 @@ pub fn text(report: &SourceReport) -> String {
         report.frames
     )];
     let heading = COLUMNS.iter().map(|(name, ..)| format!(" {name:>9}"));
-    lines.push(format!("{:<26}{}", "way", heading.collect::<String>()));
+    lines.push(format!("{:<34}{}", "way", heading.collect::<String>()));
     for way in &report.ways {
         let cells = COLUMNS.iter().map(|(_, digits, figure)| format!(" {:>9}", number(figure(way), *digits)));
-        lines.push(format!("{:<26}{}", way.name, cells.collect::<String>()));
+        lines.push(format!("{:<34}{}", way.name, cells.collect::<String>()));
     }
     lines.join("\n")
 }
@@ -49,7 +49,7 @@ pub fn text(report: &SourceReport) -> String {
 pub const LEGEND: &str = "offered, kept, used: samples behind the first layer that the source has, that are handed over, that the display ever \
 showed; missing: cells that no galpixel reached, a frame; disoccl.: those of them that the first layer alone leaves open and that are not connected \
 with the border, a frame; PSNR, FLIP (0 is best): of the whole picture after the fill, means over the frames; there: over the disoccluded cells; \
-x one: the time of a frame by that of the first layer alone, x copy: by a copy of its map; us/update: the disocclusion map and the culling.";
+x one: the time of a frame by that of the first layer alone, x copy: by a copy of its map; us/update: the disocclusion map.";
 
 /// A figure or a dash.
 fn number(value: Option<f64>, digits: usize) -> String {

@@ -22,10 +22,10 @@ const ROUNDS: u32 = 5;
 /// Cells from which on one round counts.
 const LARGE: usize = 400_000;
 
-/// The times of a frame of a source, one a way, and the microseconds that an update took before it was shown.
+/// The times of a frame of a source, one a way, and the microseconds that its disocclusion map took, where there is one.
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
-pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<(Option<Time>, f64)>, ExperimentError> {
+pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<(Option<Time>, Option<f64>)>, ExperimentError> {
     let update = source.update();
     if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
         timed::<Shaded>(source, &update, plan, ways)
@@ -37,7 +37,6 @@ pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<(Option<Time
 /// An update and what is handed over beside it.
 struct Layered<'u, L> {
     engine: Engine<L>,
-    update: &'u Update,
     carried: &'u Carried,
     bytes: usize,
 }
@@ -57,7 +56,7 @@ impl<L: Layout> Contender for Layered<'_, L> {
     fn times(&mut self, frames: u32) -> Vec<f64> {
         let beside: Vec<Beside<'_>> = self.carried.layers.iter().map(Layer::beside).collect();
         let mut times = Vec::with_capacity(frames as usize);
-        let ran = self.engine.run_layers(self.update, &beside, frames, |frame| {
+        let ran = self.engine.run_layers(&self.carried.base, &beside, frames, |frame| {
             if frame.number > 0 {
                 times.push(frame.time.as_secs_f64());
             }
@@ -72,7 +71,7 @@ fn timed<L: Layout + 'static>(
     update: &Update,
     plan: &Plan,
     ways: &[Way],
-) -> Result<Vec<(Option<Time>, f64)>, ExperimentError> {
+) -> Result<Vec<(Option<Time>, Option<f64>)>, ExperimentError> {
     let frames = plan.request.frames.unwrap_or(source.frames());
     let bits = Bits::derive(experiment::demand(update, frames, &plan.request))?;
     let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
@@ -90,7 +89,7 @@ fn timed<L: Layout + 'static>(
             let inpaint = plan.request.fill.inpaint();
             let maker: Maker<'_> = Box::new(move || {
                 let engine = Engine::<L>::new(bits, settings).ok()?.inpainting(inpaint);
-                Some(Box::new(Layered { engine, update, carried, bytes }))
+                Some(Box::new(Layered { engine, carried, bytes }))
             });
             maker
         })
@@ -98,5 +97,5 @@ fn timed<L: Layout + 'static>(
     let rounds = if update.samples.len() > LARGE { 1 } else { ROUNDS };
     let times = race(update, Effort { rounds, frames: frames.min(FRAMES) }, &makers, || {});
     drop(makers);
-    Ok(times.into_iter().zip(&carried).map(|(time, carried)| (time, carried.time.as_secs_f64() * 1e6)).collect())
+    Ok(times.into_iter().zip(&carried).map(|(time, carried)| (time, carried.culling.as_ref().map(|culling| culling.time.as_secs_f64() * 1e6))).collect())
 }

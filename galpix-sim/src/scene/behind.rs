@@ -36,24 +36,42 @@ const EMPTY: Sample = Sample {
 /// The layers behind the update of a scene at time `t`, over the same cells, from near to far; without those that are empty.
 #[must_use]
 pub fn behind(scene: &dyn Scene, t: f64, peel: &Peel) -> Vec<Update> {
-    let wings = scene.wings();
-    let width = wings.left + scene.width() + wings.right;
-    let height = wings.top + scene.height() + wings.bottom;
-    let cell = |x: usize, y: usize| {
-        let place = [x as f64 - wings.left as f64, y as f64 - wings.top as f64];
-        peeled(scene.surfaces(), place, t, peel)
-    };
-    let cells: Vec<Vec<Sample>> =
-        (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| cell(x, y))).collect();
+    let cells = cells(scene, |place| peeled(scene.surfaces(), place, t, peel));
     let deepest = cells.iter().map(Vec::len).max().unwrap_or(0);
-    let layer = |layer: usize| Update {
-        width,
-        height,
+    let layer = |layer: usize| cells.iter().map(|cell| cell.get(layer).copied().unwrap_or(EMPTY)).collect();
+    (0..deepest).map(|number| update_of(scene, layer(number))).collect()
+}
+
+/// What there is at each place of the display, row by row, wings included.
+fn cells<T: Send>(scene: &dyn Scene, at: impl Fn([f64; 2]) -> T + Sync) -> Vec<T> {
+    let wings = scene.wings();
+    let columns = 0..wings.left + scene.width() + wings.right;
+    let rows = 0..wings.top + scene.height() + wings.bottom;
+    let place = |x: usize, y: usize| [x as f64 - wings.left as f64, y as f64 - wings.top as f64];
+    let at = &at;
+    rows.into_par_iter().flat_map_iter(|y| columns.clone().map(move |x| at(place(x, y)))).collect()
+}
+
+/// Samples of all cells as an update.
+fn update_of(scene: &dyn Scene, samples: Vec<Sample>) -> Update {
+    let wings = scene.wings();
+    Update {
+        width: wings.left + scene.width() + wings.right,
+        height: wings.top + scene.height() + wings.bottom,
         wings,
-        samples: cells.iter().map(|cell| cell.get(layer).copied().unwrap_or(EMPTY)).collect(),
+        samples,
         depth_kind: scene.depth_kind(),
+    }
+}
+
+/// Each surface of a scene at time `t` by itself, as if no other one were in front of it: the layers that nothing is missing in.
+#[must_use]
+pub fn each(scene: &dyn Scene, t: f64) -> Vec<Update> {
+    let seen_alone = |index: usize| {
+        let surface = scene.surfaces()[index];
+        move |[x, y]: [f64; 2]| surface.hit(x, y, t).map_or(EMPTY, |hit| seen(surface, index, &hit, t))
     };
-    (0..deepest).map(layer).collect()
+    (0..scene.surfaces().len()).map(|index| update_of(scene, cells(scene, seen_alone(index)))).collect()
 }
 
 /// The samples of one cell behind the first, from near to far.

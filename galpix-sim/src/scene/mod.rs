@@ -24,7 +24,7 @@ pub mod texture;
 #[cfg(test)]
 mod tests;
 
-pub use behind::{Peel, behind};
+pub use behind::{Peel, behind, each};
 
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
