@@ -59,6 +59,7 @@
 pub mod budget;
 pub mod colour;
 pub mod constant;
+pub mod ddoc;
 pub mod disocclusion;
 pub mod edge;
 pub mod error;

@@ -8,6 +8,7 @@ pub mod area;
 pub mod capture;
 pub mod certificate;
 pub mod cli;
+pub mod ddoc;
 pub mod engine;
 pub mod experiment;
 pub mod figure;
