@@ -6,6 +6,7 @@ mod choices;
 mod demo;
 mod error;
 mod fills;
+mod hidden;
 mod layers;
 mod plan;
 mod run;

@@ -180,11 +180,9 @@ impl<L: Layout> Engine<L> {
         // There are as many as there is memory for.
         let Ok(hidden) = <[_; HIDDEN]>::try_from(hidden) else { return Err(EngineError::TooManyLayers(beside.len())) };
         let mut layers = Layers::new(base, hidden)?;
-        let mut store = |layer: usize, update: &Update| {
-            layers.layer_mut(layer).map(|map| load(update, map)).unwrap_or_default()
-        };
-        let loaded = store(0, update);
-        let loaded_beside = (1..).zip(beside).map(|(layer, beside)| store(layer, beside.update())).collect();
+        let loaded = layers.layer_mut(0).map(|map| load(update, map)).unwrap_or_default();
+        let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
+        let loaded_beside = (1..).zip(beside).filter_map(store).collect();
         layers.resolve(Work::Skipping);
         let used = self.frames(layers, update, beside, frames, visit);
         Ok(Ran { loaded, beside: loaded_beside, used })
@@ -269,15 +267,25 @@ pub(crate) fn core_wings(wings: Wings) -> CoreWings {
 
 /// Writes the samples of an update into a map, quantised to its budget.
 pub fn load<L: Layout, B: Budget<L>>(update: &Update, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
+    load_at(update, |_| [0.0; 2], map)
+}
+
+/// The same with samples that are not in the middle of their cells.
+fn load_at<L: Layout, B: Budget<L>>(
+    update: &Update,
+    offset: impl Fn(usize) -> [f64; 2],
+    map: &mut Galpixmap<'_, L, B>,
+) -> LoadTally {
     let mut tally = LoadTally::default();
-    for (y, row) in (0i32..).zip(update.samples.chunks(update.width.max(1))) {
-        for (x, sample) in (0i32..).zip(row) {
-            match sample.known {
-                Known::Motion => tally.galpixels += 1,
-                Known::ColourOnly => tally.empty += 1,
-            }
-            tally.saturated += map.store(x, y, &galpixel(sample)).unwrap_or(0);
+    let width = update.width.max(1);
+    for (cell, sample) in update.samples.iter().enumerate() {
+        match sample.known {
+            Known::Motion => tally.galpixels += 1,
+            Known::ColourOnly => tally.empty += 1,
         }
+        let offset = offset(cell).map(I32F32::saturating_from_num);
+        let galpixel = Galpixel { offset, ..galpixel(sample) };
+        tally.saturated += map.store((cell % width) as i32, (cell / width) as i32, &galpixel).unwrap_or(0);
     }
     tally
 }

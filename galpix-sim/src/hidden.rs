@@ -13,13 +13,17 @@ use serde::Serialize;
 
 pub use cull::{Culling, culling};
 
+use crate::ddoc::{self, distortion};
 use crate::engine::{Beside, EngineError, NO_ORIGIN, Ran};
 use crate::experiment::Source;
-use crate::scene::{self, Peel};
+use crate::scene::{self, Peel, Scene};
 use crate::update::{Known, Sample, Update};
 
 /// How far a second layer lies behind the first at least, as a part of the depth range.
 pub const SEPARATION: f64 = 1.0 / 64.0;
+
+/// How far behind an edge a DDOC reaches, cells.
+pub const RADIUS: u32 = 16;
 
 /// Where the samples behind the first layer come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -31,6 +35,11 @@ pub enum Kind {
     Second {
         /// The separation.
         separation: f64,
+    },
+    /// What the image of a depth discontinuity occlusion camera has around the edges of what is seen, in an anchored layer.
+    Ddoc {
+        /// How far behind an edge it reaches, cells.
+        radius: u32,
     },
     /// Every surface, whole, in a layer of its own: a bound, no way to ship.
     Unlimited,
@@ -69,10 +78,11 @@ impl Way {
             Kind::None => "one layer",
             Kind::Second { separation: 0.0 } => "second",
             Kind::Second { .. } => "second, separated",
+            Kind::Ddoc { .. } => "DDOC",
             Kind::Unlimited => "unlimited",
         };
         let behind = match self.arrangement {
-            Arrangement::Nearer if self.kind != Kind::None => ", behind",
+            Arrangement::Nearer if matches!(self.kind, Kind::Second { .. }) => ", behind",
             _ => "",
         };
         format!("{kind}{behind}{}", if self.culled { ", culled" } else { "" })
@@ -88,8 +98,10 @@ pub enum Layer {
     Anchored {
         /// The samples, where they are stored.
         update: Update,
-        /// From there to where they are seen.
+        /// From there to the cells in which they are seen.
         displacements: Vec<Displacement>,
+        /// Where in these cells they are.
+        offsets: Vec<[f64; 2]>,
     },
 }
 
@@ -175,13 +187,13 @@ impl Layer {
     pub fn beside(&self) -> Beside<'_> {
         match self {
             Self::Moving(update) => Beside::Moving(update),
-            Self::Anchored { update, displacements } => Beside::Anchored { update, displacements },
+            Self::Anchored { update, displacements, offsets } => Beside::Anchored { update, displacements, offsets },
         }
     }
 
     /// The cell in which a sample is seen, before anything moves; it may lie outside of the map.
     fn seen_at(&self, stored: usize) -> Option<usize> {
-        let Self::Anchored { update, displacements } = self else { return Some(stored) };
+        let Self::Anchored { update, displacements, .. } = self else { return Some(stored) };
         let [dx, dy] = displacements.get(stored).copied()?;
         let (x, y) = ((stored % update.width) as i64 + i64::from(dx), (stored / update.width) as i64 + i64::from(dy));
         let inside = (0..update.width as i64).contains(&x) && (0..update.height as i64).contains(&y);
@@ -190,20 +202,42 @@ impl Layer {
 }
 
 /// What a source has behind its first layer, or all that it has if that is unlimited; `None` if it has nothing of this kind.
-#[must_use]
-pub fn offered(source: &Source, kind: Kind) -> Option<Vec<Layer>> {
+///
+/// *Errors:* a scene that is too large for a map.
+pub fn offered(source: &Source, kind: Kind) -> Result<Option<Vec<Layer>>, EngineError> {
     let layers = match (kind, source) {
         (Kind::None, _) => Vec::new(),
         (Kind::Second { separation }, Source::Scene(scene)) => {
             scene::behind(*scene, 0.0, &Peel { layers: 1, separation, backs: true })
         }
         (Kind::Unlimited, Source::Scene(scene)) => scene::each(*scene, 0.0),
-        (Kind::Second { separation }, Source::Capture(capture)) => {
-            vec![apart(&capture.update, capture.hidden.as_ref()?, separation)]
-        }
-        (Kind::Unlimited, Source::Capture(_)) => return None,
+        (Kind::Second { separation }, Source::Capture(capture)) => match &capture.hidden {
+            Some(second) => vec![apart(&capture.update, second, separation)],
+            None => return Ok(None),
+        },
+        (Kind::Ddoc { radius }, Source::Scene(scene)) => return Ok(Some(vec![around_edges(*scene, radius)?])),
+        (Kind::Ddoc { .. } | Kind::Unlimited, Source::Capture(_)) => return Ok(None),
     };
-    Some(layers.into_iter().map(Layer::Moving).collect())
+    Ok(Some(layers.into_iter().map(Layer::Moving).collect()))
+}
+
+/// What a DDOC has of a scene that the plain picture does not show.
+fn around_edges(scene: &dyn Scene, radius: u32) -> Result<Layer, EngineError> {
+    let settings = galpix_core::ddoc::Settings { radius, ..distortion::settings() };
+    let (samples, _) = ddoc::hidden::hidden(scene, &settings)?;
+    let mut update = scene::update(scene, 0.0);
+    for sample in &mut update.samples {
+        *sample = Sample { known: Known::ColourOnly, ..Sample::default() };
+    }
+    let mut displacements = vec![[0; 2]; update.samples.len()];
+    let mut offsets = vec![[0.0; 2]; update.samples.len()];
+    for hidden in samples.iter().filter(|sample| sample.hidden) {
+        let cell = hidden.cell[1] as usize * update.width + hidden.cell[0] as usize;
+        update.samples[cell] = hidden.sample;
+        displacements[cell] = hidden.displacement();
+        offsets[cell] = hidden.offset();
+    }
+    Ok(Layer::Anchored { update, displacements, offsets })
 }
 
 /// A layer without the samples that lie less than a separation behind those of the first.
@@ -226,7 +260,7 @@ pub fn carry<L: Layout>(
     budget: Chosen<L>,
     frames: u32,
 ) -> Result<Option<Carried>, EngineError> {
-    let Some(layers) = offered(source, way.kind) else { return Ok(None) };
+    let Some(layers) = offered(source, way.kind)? else { return Ok(None) };
     let culling = if way.culled && !layers.is_empty() { Some(culling(update, budget, frames)?) } else { None };
     Ok(Some(match way.kind {
         Kind::Unlimited => unlimited(update, layers, culling),

@@ -19,7 +19,7 @@ pub struct LayersArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=255))]
     frames: Option<u32>,
     /// How far a second layer lies behind the first at least, as a part of the depth range
-    #[arg(long, value_name = "PART", default_value_t = crate::hidden::SEPARATION, value_parser = separation)]
+    #[arg(long, value_name = "PART", default_value_t = crate::hidden::SEPARATION, value_parser = super::hidden::separation)]
     separation: f64,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
@@ -27,14 +27,6 @@ pub struct LayersArguments {
     /// Print JSON
     #[arg(long)]
     json: bool,
-}
-
-/// A part of the depth range that two layers are apart, from an argument.
-pub fn separation(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(part) if (0.0..1.0).contains(&part) => Ok(part),
-        _ => Err("give a number from 0 to below 1".to_owned()),
-    }
 }
 
 impl LayersArguments {

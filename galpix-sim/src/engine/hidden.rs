@@ -2,13 +2,14 @@
 
 use galpix_core::edge;
 use galpix_core::error::SetupError;
+use galpix_core::frame::Scratch;
 use galpix_core::galpixel::{Budget, Chosen};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::Grid;
-use galpix_core::frame::Scratch;
 use galpix_core::layers::{Displacement, Layer, displacement_word, seat_words};
 use galpix_core::layout::Layout;
 
+use super::{LoadTally, load_at};
 use crate::update::Update;
 
 /// A layer beside the update, over the same cells.
@@ -20,8 +21,10 @@ pub enum Beside<'u> {
     Anchored {
         /// The samples, where they are stored.
         update: &'u Update,
-        /// From there to where they are seen.
+        /// From there to the cells in which they are seen.
         displacements: &'u [Displacement],
+        /// Where in these cells they are, -1/2 to 1/2 of a cell.
+        offsets: &'u [[f64; 2]],
     },
 }
 
@@ -32,6 +35,15 @@ impl<'u> Beside<'u> {
         match self {
             Self::Moving(update) | Self::Anchored { update, .. } => update,
         }
+    }
+
+    /// Writes its samples into a map.
+    pub(super) fn load<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
+        let offset = |sample: usize| match self {
+            Self::Moving(_) => [0.0; 2],
+            Self::Anchored { offsets, .. } => offsets.get(sample).copied().unwrap_or_default(),
+        };
+        load_at(self.update(), offset, map)
     }
 }
 

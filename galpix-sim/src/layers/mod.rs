@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::experiment::{self, ExperimentError, Request, Source};
 use crate::fills::crops;
 use crate::fills::holes::{self, Holes, count};
-use crate::hidden::{self, Arrangement, Kind, SEPARATION, Way};
+use crate::hidden::{self, Arrangement, Kind, RADIUS, SEPARATION, Way};
 use crate::metric;
 use crate::picture::Picture;
 use report::{FrameCells, SourceReport, WayFrame, WayReport};
@@ -39,6 +39,7 @@ pub fn ways(separation: f64) -> Vec<Way> {
         Way { kind: Kind::Second { separation: 0.0 }, ..whole },
         Way { arrangement: Arrangement::Nearer, ..whole },
         whole,
+        Way { kind: Kind::Ddoc { radius: RADIUS }, ..whole },
         Way { kind: Kind::Unlimited, ..whole },
     ];
     let both = ways.iter().flat_map(|&way| [false, true].map(|culled| Way { culled, ..way }));
@@ -65,8 +66,12 @@ pub enum Study {
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn study(source: &Source, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, ExperimentError> {
-    let ways: Vec<Way> =
-        plan.ways.iter().copied().filter(|way| hidden::offered(source, way.kind).is_some()).collect();
+    let mut ways = Vec::new();
+    for &way in &plan.ways {
+        if hidden::offered(source, way.kind)?.is_some() {
+            ways.push(way);
+        }
+    }
     if ways.iter().all(|way| way.kind == Kind::None) {
         return Ok(Study::NothingHidden);
     }
