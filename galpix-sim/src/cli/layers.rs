@@ -1,12 +1,17 @@
 //! `galpix layers`.
 
+use std::path::PathBuf;
+use std::time::Instant;
+
 use clap::Args;
 
+use super::call::{self, command, machine};
 use super::choices::AccelerationChoice;
 use super::demo::sources;
 use super::{CliError, check, print, print_json, printable, printable_lines, say};
 use crate::experiment::{Request, Source};
-use crate::layers::{self, Plan, Study, table};
+use crate::layers::report::Document;
+use crate::layers::{self, Plan, Study, csv, page, table};
 use crate::progress;
 
 /// Arguments of `galpix layers`.
@@ -24,6 +29,9 @@ pub struct LayersArguments {
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
+    /// Folder for layers.html, layers.csv and layers.json [default: galpix-out/layers; with --json nothing is written without it]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -32,6 +40,7 @@ pub struct LayersArguments {
 impl LayersArguments {
     /// Compares the ways.
     pub fn run(&self) -> Result<(), CliError> {
+        let started = Instant::now();
         let request = Request { frames: self.frames, ..Request::default() };
         let plan = Plan { request, ways: layers::ways(self.separation) };
         let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
@@ -40,23 +49,56 @@ impl LayersArguments {
             names => names.iter().map(open).collect::<Result<_, _>>()?,
         };
         sources.iter().try_for_each(|source| check(source, &plan.request))?;
-        let mut reports = Vec::new();
+        let out = call::folder(self.out.as_ref(), self.json, "layers")?;
+        let mut document = Document {
+            version: env!("CARGO_PKG_VERSION"),
+            command: command(),
+            machine: machine(),
+            seconds: 0.0,
+            separation: self.separation,
+            sources: Vec::new(),
+            nothing_disoccluded: Vec::new(),
+            nothing_hidden: Vec::new(),
+        };
         for source in &sources {
             let name = printable(source.name());
             let bar = progress::bar(plan.ways.len() as u64, &name);
             let study = layers::study(source, &plan, || bar.inc(1)).map_err(CliError::unusable)?;
             bar.finish_and_clear();
             match study {
-                Study::NothingDisoccluded => say(&format!("{name}: nothing is disoccluded")),
-                Study::NothingHidden => say(&format!("{name}: nothing is known behind its first layer")),
+                Study::NothingDisoccluded => {
+                    say(&format!("{name}: nothing is disoccluded"));
+                    document.nothing_disoccluded.push(source.name().to_owned());
+                }
+                Study::NothingHidden => {
+                    say(&format!("{name}: nothing is known behind its first layer; a capture says it in [update.hidden]"));
+                    document.nothing_hidden.push(source.name().to_owned());
+                }
                 Study::Compared(report) => {
                     if !self.json {
                         print(&printable_lines(&table::text(&report)))?;
                     }
-                    reports.push(report);
+                    document.sources.push(*report);
                 }
             }
         }
-        if self.json { print_json(&reports) } else { print(table::LEGEND) }
+        document.seconds = started.elapsed().as_secs_f64();
+        if !self.json {
+            print(table::LEGEND)?;
+        }
+        if let Some(out) = &out {
+            // The page last, so that where there is one, the others are there too.
+            let files = [
+                ("layers.csv", csv::csv(&document)),
+                ("layers.json", call::json(&document)?),
+                ("layers.html", page::html(&document)),
+            ];
+            call::write(out, &files)?;
+        }
+        match out {
+            _ if self.json => print_json(&document),
+            Some(out) => print(&out.join("layers.html").display().to_string()),
+            None => Ok(()),
+        }
     }
 }

@@ -2,14 +2,19 @@
 
 use std::borrow::Cow;
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::holes::Holes;
 use crate::area::Window;
 use crate::picture::Picture;
+use crate::report::text::{Text, count};
 
 /// Cells around the area that are shown with it.
 const MARGIN: usize = 10;
+/// A part is magnified to about so many pixels, by a whole factor.
+const SHOWN: usize = 300;
 /// Cells of a side that are shown at least, and at most.
 const SIDE: [usize; 2] = [40, 96];
 
@@ -62,7 +67,36 @@ pub fn of_truth(holes: &[Holes], at: &Largest) -> Vec<Crop> {
     frame.flat_map(|holes| [crop("truth", &holes.truth, at), crop("warped", &holes.warped, at)]).collect()
 }
 
+/// The parts as figures of a page, under a heading.
+#[must_use]
+pub fn html(source: &str, at: &Largest, crops: &[Crop]) -> String {
+    let figures: String = crops.iter().map(|crop| crop.figure(source)).collect();
+    format!(
+        "<h3>The largest disocclusion: {} cells of frame {}</h3><div class=\"crops\">{figures}</div>",
+        count(at.cells as u64),
+        at.frame
+    )
+}
+
 impl Crop {
+    /// As a figure of a page.
+    #[must_use]
+    pub fn figure(&self, source: &str) -> String {
+        let magnified = self.magnified((SHOWN / self.picture.width.max(1)).clamp(1, 8));
+        // A picture in memory can be encoded; if it cannot, the page does without it.
+        let bytes = magnified.png().unwrap_or_default();
+        format!(
+            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}: {}, magnified\" \
+             src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>",
+            magnified.width,
+            magnified.height,
+            Text(source),
+            Text(&self.name),
+            STANDARD.encode(bytes),
+            Text(&self.name)
+        )
+    }
+
     /// The part with each pixel as a square of `times` pixels.
     #[must_use]
     pub fn magnified(&self, times: usize) -> Picture {

@@ -8,6 +8,9 @@
 //!
 //! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
 
+pub mod csv;
+pub mod map;
+pub mod page;
 pub mod report;
 pub mod table;
 pub mod times;
@@ -106,6 +109,7 @@ pub fn study(source: &Source, plan: &Plan, done: impl Fn() + Sync) -> Result<Stu
         ways,
         largest,
         crops,
+        map: Some(map::picture(source, plan)?),
     })))
 }
 

@@ -83,6 +83,9 @@ pub struct SourceReport {
     /// What was shown around it.
     #[serde(skip)]
     pub crops: Vec<Crop>,
+    /// The update with its disocclusion map.
+    #[serde(skip)]
+    pub map: Option<Crop>,
 }
 
 impl WayReport {
@@ -121,4 +124,25 @@ impl SourceReport {
     pub fn disoccluded(&self) -> u64 {
         self.cells.iter().map(|frame| frame.disoccluded).sum()
     }
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, Serialize)]
+pub struct Document {
+    /// Of galpix.
+    pub version: &'static str,
+    /// The call, as it can be repeated.
+    pub command: String,
+    /// Where it ran.
+    pub machine: String,
+    /// How long it took.
+    pub seconds: f64,
+    /// How far a separated second layer lies behind the first at least, as a part of the depth range.
+    pub separation: f64,
+    /// The sources that were compared.
+    pub sources: Vec<SourceReport>,
+    /// The sources in which nothing is disoccluded.
+    pub nothing_disoccluded: Vec<String>,
+    /// The sources that know nothing behind their first layer.
+    pub nothing_hidden: Vec<String>,
 }
