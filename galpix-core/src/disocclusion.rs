@@ -60,6 +60,10 @@ pub struct Reach {
     pub separation: u32,
     /// What lies beyond the border.
     pub border: Border,
+    /// Whether tears count: neighbours of one surface that part by a whole cell and more. Whatever is behind a tear the map then leaves open; but
+    /// the true surface stretches where its galpixels part, and what is behind is not seen. Without tears what is claimed above holds for
+    /// pairs of two surfaces alone, and tears are left to what fills holes.
+    pub tears: bool,
 }
 
 impl Reach {
@@ -71,7 +75,7 @@ impl Reach {
     #[must_use]
     pub const fn new(frames: u32, depth_bits: u32) -> Self {
         let separation = if depth_bits == 0 { 0 } else { crate::edge::threshold_for_depth(depth_bits) };
-        Self { frames, separation, border: Border::Still }
+        Self { frames, separation, border: Border::Still, tears: true }
     }
 }
 

@@ -6,6 +6,8 @@ mod choices;
 mod demo;
 mod error;
 mod fills;
+mod hidden;
+mod layers;
 mod plan;
 mod run;
 mod scenes;
@@ -68,6 +70,8 @@ enum Command {
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
     Fills(fills::Fills),
+    /// The ways to know what was hidden side by side: samples, missing pixels, error, cost
+    Layers(layers::LayersArguments),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -94,6 +98,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
+        Command::Layers(layers) => layers.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),

@@ -16,6 +16,8 @@ pub mod fill;
 pub mod fills;
 pub mod film;
 pub mod fit;
+pub mod hidden;
+pub mod layers;
 pub mod metric;
 pub mod picture;
 pub mod plan;

@@ -61,6 +61,8 @@ pub(crate) struct Rule {
     /// In x and y.
     pub bounds: [Bound; 2],
     pub separation: i32,
+    /// Whether neighbours of one surface count that part by a whole cell.
+    pub tears: bool,
 }
 
 impl Rule {
@@ -68,7 +70,8 @@ impl Rule {
         let frames = reach.frames.min(Reach::MOST_FRAMES);
         let [x, y, _] = &record.scales;
         let bound = |scale, component| Bound::new(scale, record.acceleration(component).present(), frames);
-        Self { bounds: [bound(x, 0), bound(y, 1)], separation: reach.separation.min(WIDEST_SEPARATION) as i32 }
+        let separation = reach.separation.min(WIDEST_SEPARATION) as i32;
+        Self { bounds: [bound(x, 0), bound(y, 1)], separation, tears: reach.tears }
     }
 
     /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower), or nothing if none of
@@ -85,7 +88,7 @@ impl Rule {
         }
         let farther = second.key.wrapping_sub(first.key);
         let one_surface = farther < self.separation && farther > -self.separation;
-        if one_surface && !along.parts(second_along, first_along) {
+        if one_surface && !(self.tears && along.parts(second_along, first_along)) {
             return None;
         }
         // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.

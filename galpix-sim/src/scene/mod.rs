@@ -5,6 +5,7 @@
 //! rendered for real at the later time, and every galpixel with the place where its point of the surface truly is.
 
 mod ball;
+mod behind;
 mod crossing;
 mod disc;
 mod drift;
@@ -22,6 +23,8 @@ pub mod texture;
 
 #[cfg(test)]
 mod tests;
+
+pub use behind::{Peel, behind, each};
 
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
