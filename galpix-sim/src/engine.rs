@@ -12,6 +12,7 @@ use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings as CoreWings};
 use galpix_core::layout::{Lanes, Layout};
+use galpix_core::overlay::{self, Overlay};
 use galpix_core::tally::Tally;
 use galpix_core::{edge, scan_out};
 
@@ -45,7 +46,7 @@ pub struct LoadTally {
 }
 
 /// One frame as the display shows it, and what is known about it.
-pub struct Frame<'f, L> {
+pub struct Frame<'f, L: Layout> {
     /// Frames since the update.
     pub number: u32,
     /// What the engine counted; all zero for the update itself.
@@ -53,6 +54,7 @@ pub struct Frame<'f, L> {
     /// The processor time of the engine's own work: what else runs on the machine does not count.
     pub time: Duration,
     map: &'f Galpixmap<'f, L, Chosen<L>>,
+    overlay: Option<&'f Overlay<'f, L::Colour>>,
     origins: &'f [u32],
 }
 
@@ -106,6 +108,18 @@ impl<L: Layout> Engine<L> {
             Galpixmap::new(grid, self.budget, &mut back)?,
             Scratch { winners: &mut winners, edges: &mut edges },
         )?;
+        let mut rows = vec![0; Grid::rows(height, CoreWings::NONE)];
+        let display = Grid::new(width, height, CoreWings::NONE, &mut rows)?;
+        let mut pinned = vec![0; if update.overlay.is_some() { Overlay::<L::Colour>::words(&display) } else { 0 }];
+        let overlay = match &update.overlay {
+            Some(given) => {
+                let mut overlay = Overlay::new(display, &mut pinned)?;
+                given.pin(&mut overlay);
+                Some(overlay)
+            }
+            None => None,
+        };
+        let overlay = overlay.as_ref();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         let loaded = load(update, controller.front_mut());
         let mut origins: Vec<u32> = (0u32..)
@@ -113,7 +127,8 @@ impl<L: Layout> Engine<L> {
             .map(|(cell, sample)| if sample.known == Known::Motion { cell } else { NO_ORIGIN })
             .collect();
         let no_time = Duration::ZERO;
-        visit(&Frame { number: 0, tally: Tally::default(), time: no_time, map: controller.front(), origins: &origins });
+        let (map, tally) = (controller.front(), Tally::default());
+        visit(&Frame { number: 0, tally, time: no_time, map, overlay, origins: &origins });
         for number in 1..=frames {
             let started = ThreadTime::now();
             let tally = controller.step(&self.settings);
@@ -122,7 +137,7 @@ impl<L: Layout> Engine<L> {
             }
             let time = started.elapsed();
             origins = follow(&controller, &origins);
-            visit(&Frame { number, tally, time, map: controller.front(), origins: &origins });
+            visit(&Frame { number, tally, time, map: controller.front(), overlay, origins: &origins });
         }
         Ok(loaded)
     }
@@ -187,14 +202,24 @@ impl<L: Layout> Frame<'_, L> {
         use galpix_core::colour::Colour;
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let pixels = (0..height as u32).flat_map(|y| scan_out::row(self.map, y)).map(L::Colour::to_rgb888).collect();
+        let rows = 0..height as u32;
+        let words: Vec<u32> = match self.overlay {
+            Some(overlay) => rows.flat_map(|y| overlay::row(self.map, overlay, y)).collect(),
+            None => rows.flat_map(|y| scan_out::row(self.map, y)).collect(),
+        };
+        let pixels = words.into_iter().map(L::Colour::to_rgb888).collect();
         Picture { width, height, pixels }
     }
 
-    /// For each pixel of the display, whether a galpixel of the update reached it.
+    /// For each pixel of the display, whether a galpixel of the update reached it, or something is pinned there.
     #[must_use]
     pub fn reached(&self) -> Vec<bool> {
-        self.display_cells().map(|cell| self.origins[cell as usize] != NO_ORIGIN).collect()
+        let width = self.map.grid().display_width();
+        let pinned = |at: u32| self.overlay.is_some_and(|overlay| overlay.pinned(at % width, at / width).is_some());
+        (0..)
+            .zip(self.display_cells())
+            .map(|(at, cell)| self.origins[cell as usize] != NO_ORIGIN || pinned(at))
+            .collect()
     }
 
     fn display_cells(&self) -> impl Iterator<Item = u32> {

@@ -16,6 +16,7 @@ pub mod fills;
 pub mod film;
 pub mod fit;
 pub mod metric;
+pub mod overlay;
 pub mod picture;
 pub mod plan;
 pub mod progress;

@@ -103,7 +103,12 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
         acceleration::leave_out(&mut motion);
     }
     acceleration::apply(options.acceleration, &mut motion, &distances, size, manifest.frames);
-    let update = samples::assemble(&manifest, &picture, &distances, &motion, &mut census);
+    let overlay = match &update.overlay {
+        Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census)?),
+        None => None,
+    };
+    let mut update = samples::assemble(&manifest, &picture, &distances, &motion, &mut census);
+    update.overlay = overlay;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
     let truths = truths(&manifest, folder, size)?;
     Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, truths, census })

@@ -9,6 +9,7 @@ mod crossing;
 mod disc;
 mod drift;
 mod fovea;
+mod hud;
 pub mod jet;
 mod near_plane;
 mod pan;
@@ -23,6 +24,7 @@ pub mod texture;
 #[cfg(test)]
 mod tests;
 
+use crate::overlay::Overlay;
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
 use jet::Jet;
@@ -62,6 +64,11 @@ pub trait Scene: Sync {
     /// How its depths came about.
     fn depth_kind(&self) -> DepthKind {
         DepthKind::Z
+    }
+
+    /// What is pinned over the picture and never moves: of the display's size.
+    fn overlay(&self) -> Option<Overlay> {
+        None
     }
 
     /// What the world is built of. Surface `i` has the tag `i + 1`; of two at the same depth the earlier one is seen.
@@ -120,10 +127,10 @@ pub fn update(scene: &dyn Scene, t: f64) -> Update {
         (0..width).map(move |i| scene.sample(i as f64 - wings.left as f64, y, t))
     };
     let samples = (0..height).into_par_iter().flat_map_iter(row).collect();
-    Update { width, height, wings, samples, depth_kind: scene.depth_kind() }
+    Update { width, height, wings, samples, depth_kind: scene.depth_kind(), overlay: scene.overlay() }
 }
 
-/// The true picture on the display at time `t`, sampled anew from the world; nothing is warped.
+/// The true picture on the display at time `t`, sampled anew from the world under what is pinned; nothing is warped.
 #[must_use]
 pub fn render(scene: &dyn Scene, t: f64) -> Picture {
     let (width, height) = (scene.width(), scene.height());
@@ -132,7 +139,11 @@ pub fn render(scene: &dyn Scene, t: f64) -> Picture {
         None => [0; 3],
     };
     let pixels = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| pixel(x, y))).collect();
-    Picture { width, height, pixels }
+    let picture = Picture { width, height, pixels };
+    match scene.overlay() {
+        Some(overlay) => overlay.over(picture),
+        None => picture,
+    }
 }
 
 /// Every built-in scene, from the calmest to the wildest.
@@ -150,6 +161,7 @@ pub fn all() -> &'static [&'static dyn Scene] {
         &near_plane::NearPlane,
         &ball::Ball,
         &fovea::Fovea,
+        &hud::Hud,
     ]
 }
 
