@@ -6,6 +6,7 @@ mod choices;
 mod demo;
 mod error;
 mod fills;
+mod graft;
 mod plan;
 mod run;
 mod scenes;
@@ -68,6 +69,8 @@ enum Command {
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
     Fills(fills::Fills),
+    /// Objects updated at rates of their own against updates of the whole view, at the same number of cells a second
+    Graft(graft::Graft),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -94,6 +97,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
+        Command::Graft(graft) => graft.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),

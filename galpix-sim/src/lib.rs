@@ -15,6 +15,7 @@ pub mod fill;
 pub mod fills;
 pub mod film;
 pub mod fit;
+pub mod grafts;
 pub mod metric;
 pub mod overlay;
 pub mod picture;

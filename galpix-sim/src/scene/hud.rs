@@ -11,7 +11,7 @@ use crate::update::Wings;
 pub struct Hud;
 
 /// The sea's way: it rushes to the left, and sways.
-const WAY: [Path; 2] = [Path::new(0.0, -3.0, 0.0), Path::new(0.0, 0.4, -0.025)];
+const WAY: [Path; 2] = [Path::new(0.0, -3.0, 0.0), Path::new(0.0, 0.4, -0.006)];
 
 impl Scene for Hud {
     fn name(&self) -> &'static str {
@@ -23,7 +23,7 @@ impl Scene for Hud {
     }
 
     fn wings(&self) -> Wings {
-        Wings { left: 0, right: 76, top: 8, bottom: 4 }
+        Wings { left: 0, right: 76, top: 8, bottom: 2 }
     }
 
     fn frames(&self) -> u32 {

@@ -80,17 +80,7 @@ pub trait Scene: Sync {
         let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
             return Sample { depth: 1.0, ..Sample::default() };
         };
-        let surface = self.surfaces()[index];
-        let place = surface.place(hit.point, Jet::time(t));
-        Sample {
-            colour: round(colour(surface, &hit, t)),
-            known: Known::Motion,
-            depth: hit.depth,
-            velocity: place.map(|coordinate| coordinate.velocity),
-            acceleration: place.map(|coordinate| coordinate.acceleration),
-            luminosity_rate: surface.luminosity_rate(hit.point),
-            tag: index as u8 + 1,
-        }
+        sampled(self.surfaces()[index], index, &hit, t)
     }
 
     /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y and
@@ -100,6 +90,20 @@ pub trait Scene: Sync {
             Some((index, hit)) => self.surfaces()[index].place(hit.point, Jet::constant(t)).map(|place| place.value),
             None => [x, y, 1.0],
         }
+    }
+}
+
+/// What an update says at time `t` of a point of surface `index`.
+pub(crate) fn sampled(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
+    let place = surface.place(hit.point, Jet::time(t));
+    Sample {
+        colour: round(colour(surface, hit, t)),
+        known: Known::Motion,
+        depth: hit.depth,
+        velocity: place.map(|coordinate| coordinate.velocity),
+        acceleration: place.map(|coordinate| coordinate.acceleration),
+        luminosity_rate: surface.luminosity_rate(hit.point),
+        tag: index as u8 + 1,
     }
 }
 
