@@ -161,6 +161,12 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
         self.hidden.iter().rposition(|layer| seat::bit(layer.seats(), cell) != 0).map_or(0, |hidden| hidden + 1)
     }
 
+    /// Whether a layer is anchored, see [`Layer::anchored`].
+    #[must_use]
+    pub fn is_anchored(&self, layer: usize) -> bool {
+        layer.checked_sub(1).and_then(|hidden| self.hidden.get(hidden)).is_some_and(Layer::is_anchored)
+    }
+
     /// What is shown, if nothing was written into a layer since.
     #[must_use]
     pub const fn front(&self) -> &Galpixmap<'p, L, B> {

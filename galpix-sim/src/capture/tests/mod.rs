@@ -11,4 +11,5 @@ mod folder;
 mod hostile;
 mod manifest;
 mod maps;
+mod overlay;
 mod passes;
