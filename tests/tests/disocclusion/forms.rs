@@ -236,7 +236,7 @@ fn check<L: Layout, P: Profile>(seed: u64) {
         let separation = [0, 1, 3, 1 << budget.record().depth().bits >> 6, u32::MAX][generator.random_range(0..5)];
         let frames = [0, 1, 2, 3, 16, 60, 255, 300][generator.random_range(0..8)];
         let border = if generator.random() { Border::Still } else { Border::Continues };
-        let reach = Reach { frames, separation, border };
+        let reach = Reach { frames, separation, border, tears: true };
         let content = content(budget.record(), shape, number);
         with_maps(shape, budget, Some(&content), |front, _| {
             let grid = *front.grid();
