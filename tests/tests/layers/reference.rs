@@ -127,8 +127,8 @@ fn write<L: Layout, B: Budget<L>, const HIDDEN: usize>(
 ) {
     let layer = below(generator, HIDDEN as u32 + 1) as usize;
     let cells = model.shape.cells() as usize;
-    let filling = Filling::ALL[below(generator, 5) as usize];
-    let update = chance::map(generator, model.budget.record(), filling, cells);
+    let filling = Filling::any(generator);
+    let update = chance::map(generator, model.budget.record(), filling, model.shape);
     let taken: Vec<bool> = (0..cells).map(|_| generator.random_ratio(1, 3)).collect();
     let columns = model.shape.columns();
     let own = &mut model.layers[layer];
@@ -200,8 +200,8 @@ fn same_as_the_model<L: Layout, B: Budget<L>, const HIDDEN: usize>(budget: B, se
         .map(|layer| {
             let anchored = layer > 0 && generator.random_ratio(1, 3);
             let [winners, edges] = [0, 1].map(|_| generator.random_ratio(5, 6));
-            let filling = Filling::ALL[below(&mut generator, 5) as usize];
-            let content = chance::map(&mut generator, &record, filling, shape.cells() as usize);
+            let filling = Filling::any(&mut generator);
+            let content = chance::map(&mut generator, &record, filling, shape);
             (Kind { winners, edges: edges && !anchored, anchored }, content)
         })
         .collect();
@@ -288,7 +288,7 @@ fn a_base_alone_is_a_controller() {
         for work in Work::ALL {
             let settings = Settings { rung, work, reach: 2, ..Settings::for_depth(16) };
             let shape = SHAPES[2];
-            let content = chance::map(&mut generator(seed), &record, Filling::Dense, shape.cells() as usize);
+            let content = chance::map(&mut generator(seed), &record, Filling::Dense, shape);
             with_controller::<Full, _, _>(shape, budget, Some(&planes(&content)), |controller| {
                 with_layers::<Full, _, 0, _>(shape, budget, &[(kind, content.clone())], |layers| {
                     for _ in 0..FRAMES {
@@ -317,8 +317,8 @@ fn layers_are_the_same_in_both_modes_of_work() {
             let contents: Vec<(Kind, Vec<Cell>)> = (0..3)
                 .map(|layer| {
                     let kind = Kind { winners: true, edges: layer < 2, anchored: layer == 2 };
-                    let filling = Filling::ALL[below(&mut generator, 5) as usize];
-                    (kind, chance::map(&mut generator, budget.record(), filling, shape.cells() as usize))
+                    let filling = Filling::any(&mut generator);
+                    (kind, chance::map(&mut generator, budget.record(), filling, shape))
                 })
                 .collect();
             with_layers::<Shaded, _, 2, _>(shape, budget, &contents, |layers| {
