@@ -129,13 +129,15 @@ fn write<L: Layout, B: Budget<L>, const HIDDEN: usize>(
     let cells = model.shape.cells() as usize;
     let filling = Filling::any(generator);
     let update = chance::map(generator, model.budget.record(), filling, model.shape);
-    let taken: Vec<bool> = (0..cells).map(|_| generator.random_ratio(1, 3)).collect();
+    // Of an anchored layer at times a displacement alone.
+    let galpixels = !model.layers[layer].kind.anchored || generator.random_ratio(1, 2);
+    let taken: Vec<bool> = (0..cells).map(|_| galpixels && generator.random_ratio(1, 3)).collect();
     let columns = model.shape.columns();
     let own = &mut model.layers[layer];
     let to = if own.kind.anchored { &mut own.stored } else { &mut own.cells };
     with_maps::<L, B, _>(model.shape, model.budget, Some(&planes(&update)), |from, _| {
-        let map = layers.layer_mut(layer).expect("a layer");
         for cell in (0..cells).filter(|&cell| taken[cell]) {
+            let map = layers.layer_mut(layer).expect("a layer");
             let [x, y] = [cell as u32 % columns, cell as u32 / columns].map(|place| place as i32);
             let galpixel = from.load(x, y).expect("in the map");
             map.store(x, y, &galpixel).expect("in the map");
