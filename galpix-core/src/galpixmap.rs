@@ -193,6 +193,14 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         })
     }
 
+    /// A field of some cells as two's complement numbers; nothing if they are not all in the map.
+    #[inline(always)]
+    pub(crate) fn signed(&self, field: Field, cells: Range<usize>) -> impl Iterator<Item = i32> {
+        let ((upper, lower), extract) = (field.words(), field.extract());
+        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
+        plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.signed(upper, lower))
+    }
+
     /// Whether some cells are all empty.
     #[inline(always)]
     pub(crate) fn all_empty(&self, cells: Range<usize>) -> bool {

@@ -17,6 +17,8 @@
 //! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
 //! them with units.
 //!
+//! [`disocclusion`] says, before an update is shown, which hidden samples it needs.
+//!
 //! Nothing here allocates, floats, panics or wraps once a map is set up: errors at the border, counts inside.
 //!
 //! ```
@@ -57,6 +59,8 @@
 pub mod budget;
 pub mod colour;
 pub mod constant;
+pub mod ddoc;
+pub mod disocclusion;
 pub mod edge;
 pub mod error;
 pub mod fill;

@@ -7,6 +7,8 @@ mod demo;
 mod error;
 mod fills;
 mod graft;
+mod hidden;
+mod layers;
 mod plan;
 mod run;
 mod scenes;
@@ -69,6 +71,8 @@ enum Command {
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
     Fills(fills::Fills),
+    /// The ways to know what was hidden side by side: samples, missing pixels, error, cost
+    Layers(layers::LayersArguments),
     /// Objects updated at rates of their own against updates of the whole view, at the same number of cells a second
     Graft(graft::Graft),
     /// Prints every width of a bit budget, its bytes, and its certificate
@@ -97,6 +101,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
+        Command::Layers(layers) => layers.run(),
         Command::Graft(graft) => graft.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),

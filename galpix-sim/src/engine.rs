@@ -1,4 +1,8 @@
-//! The engine over memory of the host: one update in, frames out, with what is needed to judge them.
+//! The engine over memory of the host: one update in, with layers beside it or without, frames out, with what is needed to judge them.
+
+mod hidden;
+mod origins;
+mod show;
 
 use std::time::Duration;
 
@@ -6,22 +10,27 @@ use cpu_time::ThreadTime;
 use fixed::types::I32F32;
 use galpix_core::budget::Bits;
 use galpix_core::error::{BudgetError, SetupError};
-use galpix_core::fill::FILLED;
-use galpix_core::frame::{Controller, Scratch, Settings};
+use galpix_core::frame::{Controller, Scratch, Settings, Work};
 use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings as CoreWings};
+use galpix_core::layers::{Layer, Layers};
 use galpix_core::layout::{Lanes, Layout};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::tally::Tally;
 use galpix_core::{edge, scan_out};
 
+pub use hidden::Beside;
+pub use origins::NO_ORIGIN;
+pub use show::Show;
+
 use crate::fill::{Inpaint, Inpainter};
 use crate::picture::Picture;
 use crate::update::{Known, Sample, Update, Wings};
+use origins::Origins;
 
-/// In an origin map: this cell does not hold a galpixel of the update.
-pub const NO_ORIGIN: u32 = u32::MAX;
+/// Layers that can be handed over beside an update.
+pub const MAX_BESIDE: usize = 8;
 
 /// Why a run could not be set up.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +41,21 @@ pub enum EngineError {
     /// The map cannot be laid out.
     #[error("{0}")]
     Setup(#[from] SetupError),
+    /// A layer that does not lie over the update.
+    #[error("a layer of {width}x{height} samples does not lie over an update of {}x{}: deliver both at the same size", of[0], of[1])]
+    LayerSize {
+        /// Its columns.
+        width: usize,
+        /// Its rows.
+        height: usize,
+        /// Those of the update.
+        of: [usize; 2],
+    },
+    /// More layers than there is room for.
+    #[error(
+        "{0} layers beside the update are more than the {MAX_BESIDE} that there is room for: leave the farthest out"
+    )]
+    TooManyLayers(usize),
 }
 
 /// What entered with the update.
@@ -43,6 +67,17 @@ pub struct LoadTally {
     pub empty: u32,
     /// Fields that had to be clamped to their range.
     pub saturated: u32,
+}
+
+/// What a run told beside its frames.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ran {
+    /// What entered with the update.
+    pub loaded: LoadTally,
+    /// What entered with each layer beside it.
+    pub beside: Vec<LoadTally>,
+    /// For each sample, by its number in [`Frame::origins`], whether the display ever showed it.
+    pub used: Vec<bool>,
 }
 
 /// One frame as the display shows it, and what is known about it.
@@ -93,23 +128,84 @@ impl<L: Layout> Engine<L> {
         &self,
         update: &Update,
         frames: u32,
-        mut visit: impl FnMut(&Frame<'_, L>),
+        visit: impl FnMut(&Frame<'_, L>),
     ) -> Result<LoadTally, EngineError> {
-        let wings = core_wings(update.wings);
-        let (width, height) = (update.display_width() as u32, update.display_height() as u32);
-        let mut starts = vec![0; Grid::rows(height, wings)];
-        let grid = Grid::new(width, height, wings, &mut starts)?;
-        let words = Galpixmap::<L, _>::words(&grid, self.budget);
-        let (mut front, mut back) = (vec![0; words], vec![0; words]);
-        let mut winners = vec![0; grid.cells() as usize];
-        let mut edges = vec![0; edge::words(&grid)];
-        let mut controller = Controller::new(
-            Galpixmap::<L, _>::new(grid, self.budget, &mut front)?,
-            Galpixmap::new(grid, self.budget, &mut back)?,
-            Scratch { winners: &mut winners, edges: &mut edges },
-        )?;
-        let mut rows = vec![0; Grid::rows(height, CoreWings::NONE)];
-        let display = Grid::new(width, height, CoreWings::NONE, &mut rows)?;
+        Ok(self.run_layers(update, &[], frames, visit)?.loaded)
+    }
+
+    /// The same with layers beside the update, the first of which is layer 1.
+    ///
+    /// *Errors:* an update that cannot be laid out, layers of another size, more than [`MAX_BESIDE`] of them.
+    pub fn run_layers(
+        &self,
+        update: &Update,
+        beside: &[Beside<'_>],
+        frames: u32,
+        mut visit: impl FnMut(&Frame<'_, L>),
+    ) -> Result<Ran, EngineError> {
+        let of = [update.width, update.height];
+        let size = |update: &Update| [update.width, update.height];
+        if let Some(other) =
+            beside.iter().map(Beside::update).find(|other| size(other) != of || other.wings != update.wings)
+        {
+            return Err(EngineError::LayerSize { width: other.width, height: other.height, of });
+        }
+        // As few numbers of layers as times can tell apart; each is compiled on its own.
+        match beside.len() {
+            0 => self.run_one(update, frames, &mut visit),
+            1 => self.run_several::<1>(update, beside, frames, &mut visit),
+            2 => self.run_several::<2>(update, beside, frames, &mut visit),
+            3..=MAX_BESIDE => self.run_several::<MAX_BESIDE>(update, beside, frames, &mut visit),
+            more => Err(EngineError::TooManyLayers(more)),
+        }
+    }
+
+    fn run_one(&self, update: &Update, frames: u32, visit: Visit<'_, L>) -> Result<Ran, EngineError> {
+        let mut memory = Base::new(update, self.budget)?;
+        let mut controller = memory.controller(update, self.budget)?;
+        let loaded = load(update, controller.front_mut());
+        let used = self.frames(controller, update, &[], frames, visit)?;
+        Ok(Ran { loaded, beside: Vec::new(), used })
+    }
+
+    fn run_several<const HIDDEN: usize>(
+        &self,
+        update: &Update,
+        beside: &[Beside<'_>],
+        frames: u32,
+        visit: Visit<'_, L>,
+    ) -> Result<Ran, EngineError> {
+        let mut memory = Base::new(update, self.budget)?;
+        let mut starts = memory.starts.clone();
+        let grid = grid(update, &mut starts)?;
+        let mut own: [hidden::Memory; HIDDEN] =
+            std::array::from_fn(|layer| hidden::Memory::new::<L, _>(&grid, self.budget, beside.get(layer)));
+        let base = memory.controller(update, self.budget)?;
+        let hidden: Vec<Layer<'_, L, _>> =
+            own.iter_mut().map(|memory| memory.layer(grid, self.budget)).collect::<Result<_, _>>()?;
+        // There are as many as there is memory for.
+        let Ok(hidden) = <[_; HIDDEN]>::try_from(hidden) else { return Err(EngineError::TooManyLayers(beside.len())) };
+        let mut layers = Layers::new(base, hidden)?;
+        let loaded = layers.layer_mut(0).map(|map| load(update, map)).unwrap_or_default();
+        let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
+        let loaded_beside = (1..).zip(beside).filter_map(store).collect();
+        layers.resolve(Work::Skipping);
+        let used = self.frames(layers, update, beside, frames, visit)?;
+        Ok(Ran { loaded, beside: loaded_beside, used })
+    }
+
+    /// Shows the update and `frames` frames; returns which samples were ever shown.
+    fn frames<'p>(
+        &self,
+        mut show: impl Show<'p, L, Chosen<L>>,
+        update: &Update,
+        beside: &[Beside<'_>],
+        frames: u32,
+        visit: Visit<'_, L>,
+    ) -> Result<Vec<bool>, EngineError> {
+        let grid = *show.front().grid();
+        let mut rows = vec![0; Grid::rows(grid.display_height(), CoreWings::NONE)];
+        let display = Grid::new(grid.display_width(), grid.display_height(), CoreWings::NONE, &mut rows)?;
         let mut pinned = vec![0; if update.overlay.is_some() { Overlay::<L::Colour>::words(&display) } else { 0 }];
         let overlay = match &update.overlay {
             Some(given) => {
@@ -121,26 +217,64 @@ impl<L: Layout> Engine<L> {
         };
         let overlay = overlay.as_ref();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
-        let loaded = load(update, controller.front_mut());
-        let mut origins: Vec<u32> = (0u32..)
-            .zip(&update.samples)
-            .map(|(cell, sample)| if sample.known == Known::Motion { cell } else { NO_ORIGIN })
-            .collect();
-        let no_time = Duration::ZERO;
-        let (map, tally) = (controller.front(), Tally::default());
-        visit(&Frame { number: 0, tally, time: no_time, map, overlay, origins: &origins });
-        for number in 1..=frames {
-            let started = ThreadTime::now();
-            let tally = controller.step(&self.settings);
-            if let Some(inpainter) = &mut inpainter {
-                inpainter.paint(&mut controller, &self.settings);
+        let mut origins = Origins::new(update, beside);
+        let mut tally = Tally::default();
+        let mut time = Duration::ZERO;
+        for number in 0..=frames {
+            if number > 0 {
+                let started = ThreadTime::now();
+                tally = show.step(&self.settings);
+                if let Some(inpainter) = &mut inpainter {
+                    inpainter.paint(&mut show, &self.settings);
+                }
+                time = started.elapsed();
+                origins.follow(&show, beside);
             }
-            let time = started.elapsed();
-            origins = follow(&controller, &origins);
-            visit(&Frame { number, tally, time, map: controller.front(), overlay, origins: &origins });
+            origins.look(&show, beside, display_cells(&grid));
+            visit(&Frame { number, tally, time, map: show.front(), overlay, origins: &origins.shown });
         }
-        Ok(loaded)
+        Ok(origins.used)
     }
+}
+
+type Visit<'v, L> = &'v mut dyn FnMut(&Frame<'_, L>);
+
+/// The memory of the base.
+struct Base {
+    starts: Vec<u32>,
+    front: Vec<u32>,
+    back: Vec<u32>,
+    winners: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+impl Base {
+    fn new<L: Layout>(update: &Update, budget: Chosen<L>) -> Result<Self, EngineError> {
+        let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
+        let grid = grid(update, &mut starts)?;
+        let words = Galpixmap::<L, _>::words(&grid, budget);
+        let (winners, edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+        Ok(Self { starts, front: vec![0; words], back: vec![0; words], winners, edges })
+    }
+
+    fn controller<'p, L: Layout>(
+        &'p mut self,
+        update: &Update,
+        budget: Chosen<L>,
+    ) -> Result<Controller<'p, L, Chosen<L>>, EngineError> {
+        let grid = grid(update, &mut self.starts)?;
+        Ok(Controller::new(
+            Galpixmap::new(grid, budget, &mut self.front)?,
+            Galpixmap::new(grid, budget, &mut self.back)?,
+            Scratch { winners: &mut self.winners, edges: &mut self.edges },
+        )?)
+    }
+}
+
+/// The grid of an update.
+pub(crate) fn grid<'g>(update: &Update, starts: &'g mut [u32]) -> Result<Grid<'g>, SetupError> {
+    let (width, height) = (update.display_width() as u32, update.display_height() as u32);
+    Grid::new(width, height, core_wings(update.wings), starts)
 }
 
 /// The wings of an update, as the core has them.
@@ -151,15 +285,25 @@ pub(crate) fn core_wings(wings: Wings) -> CoreWings {
 
 /// Writes the samples of an update into a map, quantised to its budget.
 pub fn load<L: Layout, B: Budget<L>>(update: &Update, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
+    load_at(update, |_| [0.0; 2], map)
+}
+
+/// The same with samples that are not in the middle of their cells.
+fn load_at<L: Layout, B: Budget<L>>(
+    update: &Update,
+    offset: impl Fn(usize) -> [f64; 2],
+    map: &mut Galpixmap<'_, L, B>,
+) -> LoadTally {
     let mut tally = LoadTally::default();
-    for (y, row) in (0i32..).zip(update.samples.chunks(update.width.max(1))) {
-        for (x, sample) in (0i32..).zip(row) {
-            match sample.known {
-                Known::Motion => tally.galpixels += 1,
-                Known::ColourOnly => tally.empty += 1,
-            }
-            tally.saturated += map.store(x, y, &galpixel(sample)).unwrap_or(0);
+    let width = update.width.max(1);
+    for (cell, sample) in update.samples.iter().enumerate() {
+        match sample.known {
+            Known::Motion => tally.galpixels += 1,
+            Known::ColourOnly => tally.empty += 1,
         }
+        let offset = offset(cell).map(I32F32::saturating_from_num);
+        let galpixel = Galpixel { offset, ..galpixel(sample) };
+        tally.saturated += map.store((cell % width) as i32, (cell / width) as i32, &galpixel).unwrap_or(0);
     }
     tally
 }
@@ -180,19 +324,6 @@ pub fn galpixel(sample: &Sample) -> Galpixel {
         luminosity_rate: I32F32::saturating_from_num(sample.luminosity_rate),
         tag: u32::from(sample.tag),
     }
-}
-
-/// For each cell of the shown map, the sample of the update that it holds.
-fn follow<L: Layout>(controller: &Controller<'_, L, Chosen<L>>, before: &[u32]) -> Vec<u32> {
-    (0u32..)
-        .zip(controller.winners())
-        .map(|(cell, &winner)| {
-            if winner >= FILLED || controller.front().class(cell) != Class::Galpixel {
-                return NO_ORIGIN;
-            }
-            before.get(winner as usize).copied().unwrap_or(NO_ORIGIN)
-        })
-        .collect()
 }
 
 impl<L: Layout> Frame<'_, L> {
@@ -217,18 +348,15 @@ impl<L: Layout> Frame<'_, L> {
         let width = self.map.grid().display_width();
         let pinned = |at: u32| self.overlay.is_some_and(|overlay| overlay.pinned(at % width, at / width).is_some());
         (0..)
-            .zip(self.display_cells())
+            .zip(display_cells(self.map.grid()))
             .map(|(at, cell)| self.origins[cell as usize] != NO_ORIGIN || pinned(at))
             .collect()
     }
 
-    fn display_cells(&self) -> impl Iterator<Item = u32> {
-        let grid = self.map.grid();
-        let wings = grid.wings();
-        let (width, height) = (grid.display_width(), grid.display_height());
-        (0..height).flat_map(move |y| {
-            (0..width).filter_map(move |x| grid.cell((x + wings.left) as i32, (y + wings.top) as i32))
-        })
+    /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for each layer above
+    /// the base; [`NO_ORIGIN`] where it shows none.
+    pub fn origins(&self) -> impl Iterator<Item = u32> {
+        display_cells(self.map.grid()).map(|cell| self.origins[cell as usize])
     }
 
     /// The map.
@@ -237,7 +365,7 @@ impl<L: Layout> Frame<'_, L> {
         self.map
     }
 
-    /// Every galpixel of the update that is still on the map: its sample, and its place (x, y) in cells of the map.
+    /// Every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x, y) in cells of the map.
     pub fn places(&self) -> impl Iterator<Item = (u32, [f64; 2])> {
         let grid = *self.map.grid();
         (0..grid.height() as i32).flat_map(move |y| {
@@ -251,4 +379,12 @@ impl<L: Layout> Frame<'_, L> {
             })
         })
     }
+}
+
+/// The cells of the display, row by row.
+fn display_cells(grid: &Grid<'_>) -> impl Iterator<Item = u32> {
+    let wings = grid.wings();
+    let (width, height) = (grid.display_width(), grid.display_height());
+    let cell = move |x: u32, y: u32| grid.cell((x + wings.left) as i32, (y + wings.top) as i32);
+    (0..height).flat_map(move |y| (0..width).filter_map(move |x| cell(x, y)))
 }

@@ -11,6 +11,7 @@ use galpix_core::colour::Colour;
 use galpix_core::edge;
 use galpix_core::error::BudgetError;
 use galpix_core::frame::{Settings, Work};
+use galpix_core::galpixel::Chosen;
 use galpix_core::layout::{Full, Layout, Shaded};
 use galpix_core::record::Record;
 use galpix_core::rounding::Rounding;
@@ -23,8 +24,9 @@ pub use work::work_gain;
 
 use crate::capture::{self, Capture, Census, ImportOptions};
 use crate::certificate::Certificate;
-use crate::engine::{Engine, EngineError, Frame};
+use crate::engine::{Beside, Engine, EngineError, Frame};
 use crate::fill::Fill;
+use crate::hidden::{self, Carried, HiddenReport, Way};
 use crate::picture::Picture;
 use crate::scene::{self, Scene};
 use crate::update::{DepthKind, Truth, Update};
@@ -54,6 +56,16 @@ pub enum ExperimentError {
     /// The budget cannot exist.
     #[error("this budget cannot exist: {0}")]
     Budget(#[from] BudgetError),
+    /// The source knows nothing behind its first layer, or not in this way.
+    #[error("{source_name} has no hidden samples of the kind `{way}`: {mend}")]
+    NothingHidden {
+        /// Scene or capture.
+        source_name: String,
+        /// What was wanted.
+        way: String,
+        /// What to do about it.
+        mend: &'static str,
+    },
 }
 
 impl Source {
@@ -147,6 +159,8 @@ pub struct Request {
     pub edge_threshold: Option<f64>,
     /// Whether SSIM and FLIP are computed too.
     pub perceptual: bool,
+    /// What is handed over beside the first layer.
+    pub way: Way,
 }
 
 impl Default for Request {
@@ -161,6 +175,7 @@ impl Default for Request {
             reach: 1,
             edge_threshold: None,
             perceptual: true,
+            way: Way::ONE,
         }
     }
 }
@@ -219,16 +234,22 @@ fn run_as<L: Layout>(
     let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
     let settings = settings(&record, update.depth_kind, request);
     let engine = Engine::<L>::new(bits, settings)?.inpainting(request.fill.inpaint());
+    let carried = carried::<L>(source, update, request.way, bits, frames)?;
+    let beside: Vec<Beside<'_>> = carried.layers.iter().map(hidden::Layer::beside).collect();
     let hold = update.picture();
     let mut reports = Vec::with_capacity(frames as usize);
-    let loaded = engine.run(update, frames, |frame| {
+    let ran = engine.run_layers(&carried.base, &beside, frames, |frame| {
         let picture = frame.picture();
         let truth = source.truth(frame.number);
         let reached = frame.reached();
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
             let truth = truth.map(|truth| compare(&picture, &hold, &truth, &reached, request.perceptual));
-            reports.push(report(frame, compare::position(source, update, frame), truth));
+            let position = compare::position(source, update, frame, |origin| carried.first(origin));
+            let report = report(frame, position, truth);
+            let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;
+            let from_hidden = (request.way != Way::ONE).then(hidden);
+            reports.push(FrameReport { from_hidden, ..report });
         }
     })?;
     let mut times: Vec<f64> = reports.iter().map(|report: &FrameReport| report.ns_per_galpixel).collect();
@@ -242,11 +263,31 @@ fn run_as<L: Layout>(
         fill: request.fill.name(),
         edge_threshold: settings.edge_threshold,
         ns_per_galpixel: times.get(times.len() / 2).copied().unwrap_or(0.0),
-        loaded,
+        loaded: ran.loaded,
+        hidden: (request.way != Way::ONE).then(|| HiddenReport::of(request.way, &carried, &ran)),
         census: source.census().cloned(),
         certificate: Certificate::of(&record.scales[0], L::LANES.acceleration, request.rounding, demand.prop),
         frames: reports,
     })
+}
+
+/// What a source hands over beside its update.
+///
+/// *Errors:* a source that has nothing of this kind, a budget that does not fit.
+pub(crate) fn carried<L: Layout>(
+    source: &Source,
+    update: &Update,
+    way: Way,
+    bits: Bits,
+    frames: u32,
+) -> Result<Carried, ExperimentError> {
+    let budget = Chosen::<L>::new(bits)?;
+    let mend = match source {
+        Source::Scene(_) => "choose another way",
+        Source::Capture(_) => "add an [update.hidden] to its manifest, or choose another way",
+    };
+    let nothing = || ExperimentError::NothingHidden { source_name: source.name().to_owned(), way: way.name(), mend };
+    hidden::carry(source, update, way, budget, frames)?.ok_or_else(nothing)
 }
 
 /// How the frames of an update are made under a record.
@@ -286,6 +327,7 @@ fn report<L: Layout>(
         edges,
         ns_per_galpixel: frame.time.as_secs_f64() * 1e9 / f64::from(moved.max(1)),
         position,
+        from_hidden: None,
         truth,
     }
 }

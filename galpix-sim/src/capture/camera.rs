@@ -33,14 +33,14 @@ pub(super) enum Distance {
 }
 
 /// The view from the update's camera into another one: `p' = R p + t` in camera coordinates.
-struct View {
+pub(super) struct View {
     steps: f64,
     rotation: [[f64; 3]; 3],
     shift: [f64; 3],
 }
 
 impl View {
-    fn new(now: &Pose, steps: f64, other: &Pose) -> Self {
+    pub fn new(now: &Pose, steps: f64, other: &Pose) -> Self {
         // R' = R_otherᵀ R_now, t = R_otherᵀ (c_now - c_other).
         let transposed =
             |v: [f64; 3]| -> [f64; 3] { std::array::from_fn(|i| (0..3).map(|k| other.rotation[k][i] * v[k]).sum()) };
@@ -51,7 +51,7 @@ impl View {
     }
 
     /// `R p + weight t`.
-    fn apply(&self, p: [f64; 3], weight: f64) -> [f64; 3] {
+    pub fn apply(&self, p: [f64; 3], weight: f64) -> [f64; 3] {
         std::array::from_fn(|i| (0..3).map(|k| self.rotation[i][k] * p[k]).sum::<f64>() + weight * self.shift[i])
     }
 }

@@ -12,15 +12,17 @@ use super::source::{Size, Source};
 pub(super) fn read(depth: &Depth, folder: &Path, size: Size) -> Result<Option<Vec<Distance>>, CaptureError> {
     match depth {
         Depth::Speed(_) => Ok(None),
-        Depth::Z(map) => {
-            let distances = numbers(map, folder, size)?.into_iter();
-            Ok(Some(distances.map(|raw| distance(map, raw)).collect()))
-        }
+        Depth::Z(map) => Ok(Some(planar(map, folder, size)?)),
         Depth::Disparity(map) => {
             let distances = numbers(map, folder, size)?.into_iter();
             Ok(Some(distances.map(|raw| if raw == 0.0 { zero_disparity(map) } else { distance(map, raw) }).collect()))
         }
     }
+}
+
+/// The distances of a map along the optical axis.
+pub(super) fn planar(map: &Map, folder: &Path, size: Size) -> Result<Vec<Distance>, CaptureError> {
+    Ok(numbers(map, folder, size)?.into_iter().map(|raw| distance(map, raw)).collect())
 }
 
 fn numbers(map: &Map, folder: &Path, size: Size) -> Result<Vec<f64>, CaptureError> {

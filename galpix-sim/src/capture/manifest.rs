@@ -1,10 +1,14 @@
 //! The keys of `capture.toml`. Whatever is not named here is refused, so that a misspelt key never goes unnoticed.
 
+mod hidden;
+
 use std::fmt;
 use std::path::Path;
 
 use serde::Deserialize;
 use serde::de::{self, MapAccess, Visitor, value::MapAccessDeserializer};
+
+pub(super) use hidden::{Hidden, View, Views};
 
 use super::error::CaptureError;
 use super::source::Source;
@@ -43,6 +47,7 @@ pub(super) struct Update {
     pub overlay: Option<Overlay>,
     /// For `background = "camera"` where the motion is not of the kind `camera`.
     pub camera: Option<Camera>,
+    pub hidden: Option<Hidden>,
 }
 
 /// `overlay = { file }`.
@@ -337,27 +342,10 @@ impl Manifest {
     fn check(&self) -> Result<(), (String, &'static str)> {
         frames("frames", self.frames)?;
         match &self.update.depth {
-            Depth::Z(map) | Depth::Disparity(map) => {
-                positive("depth.scale", map.scale)?;
-                if map.far.is_some_and(f64::is_nan) {
-                    return Err(("depth.far is not a number".into(), "write a raw value, or leave the key out"));
-                }
-            }
+            Depth::Z(map) | Depth::Disparity(map) => map.check("depth")?,
             Depth::Speed(Nothing {}) => {}
         }
-        match &self.update.motion {
-            Motion::Disparity(motion) => {
-                positive("motion.scale", motion.scale)?;
-                if motion.sign.abs() != 1.0 {
-                    let what = format!("motion.sign is {}", motion.sign);
-                    return Err((what, "write -1 or 1 and put the size into scale"));
-                }
-                frames("motion.frames", motion.frames)?;
-            }
-            Motion::Flow(flow) => frames("motion.frames", flow.frames)?,
-            Motion::Planes(passes) | Motion::BlenderVector(passes) => frames("motion.frames", passes.frames)?,
-            Motion::Camera(camera) => camera.check("motion")?,
-        }
+        self.update.motion.check("motion")?;
         if matches!(
             (&self.update.motion, &self.update.depth),
             (Motion::Camera(_), Depth::Disparity(_) | Depth::Speed(_))
@@ -378,6 +366,9 @@ impl Manifest {
         if let Some(camera) = &self.update.camera {
             camera.check("camera")?;
         }
+        if let Some(hidden) = &self.update.hidden {
+            hidden.check(self)?;
+        }
         for truth in &self.truth {
             if truth.frame == 0 || truth.frame > self.frames {
                 let what = format!("truth.frame is {}, outside of 1 to {} (frames)", truth.frame, self.frames);
@@ -389,6 +380,35 @@ impl Manifest {
             return Err((what, "remove one of them"));
         }
         Ok(())
+    }
+}
+
+impl Map {
+    fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
+        positive(&format!("{table}.scale"), self.scale)?;
+        if self.far.is_some_and(f64::is_nan) {
+            return Err((format!("{table}.far is not a number"), "write a raw value, or leave the key out"));
+        }
+        Ok(())
+    }
+}
+
+impl Motion {
+    fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
+        let key = format!("{table}.frames");
+        match self {
+            Self::Disparity(motion) => {
+                positive(&format!("{table}.scale"), motion.scale)?;
+                if motion.sign.abs() != 1.0 {
+                    let what = format!("{table}.sign is {}", motion.sign);
+                    return Err((what, "write -1 or 1 and put the size into scale"));
+                }
+                frames(&key, motion.frames)
+            }
+            Self::Flow(flow) => frames(&key, flow.frames),
+            Self::Planes(passes) | Self::BlenderVector(passes) => frames(&key, passes.frames),
+            Self::Camera(camera) => camera.check(table),
+        }
     }
 }
 

@@ -16,6 +16,7 @@ mod dpt;
 mod error;
 mod exr_planes;
 mod flo;
+mod hidden;
 mod manifest;
 mod mixed;
 mod motion;
@@ -58,6 +59,9 @@ pub struct Census {
     pub unknown_motion: usize,
     /// Cells that are infinitely far; they are among `known`, unless the background is empty.
     pub far: usize,
+    /// Cells behind whose sample another one is known, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hidden: Option<usize>,
     /// Cells whose acceleration was asked for and is unknown: they move with their velocity.
     pub unknown_acceleration: usize,
     /// Remarks, one sentence each.
@@ -75,6 +79,8 @@ pub struct Capture {
     pub frames: u32,
     /// The update.
     pub update: Update,
+    /// What is known behind the update's samples, over the same cells; cells without are empty.
+    pub hidden: Option<Update>,
     /// In ascending frames.
     pub truths: Vec<Truth>,
     /// What was known.
@@ -103,15 +109,17 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
         acceleration::leave_out(&mut motion);
     }
     acceleration::apply(options.acceleration, &mut motion, &distances, size, manifest.frames);
+    let unit = samples::Unit::of(&update.depth, &distances, &motion);
     let overlay = match &update.overlay {
         Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census)?),
         None => None,
     };
-    let mut update = samples::assemble(&manifest, &picture, &distances, &motion, &mut census);
+    let hidden = hidden::read(&manifest, folder, size, unit, &distances, options, &mut census)?;
+    let mut update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
     update.overlay = overlay;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
     let truths = truths(&manifest, folder, size)?;
-    Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, truths, census })
+    Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, hidden, truths, census })
 }
 
 fn truths(manifest: &Manifest, folder: &Path, size: Size) -> Result<Vec<Truth>, CaptureError> {

@@ -2,26 +2,42 @@
 
 use super::Census;
 use super::camera::{Distance, Track};
-use super::manifest::{Depth, Manifest};
+use super::manifest::Depth;
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
 
 /// The nearest distance that can be stored is this part of the nearest that is seen: room to approach.
 const ROOM: f64 = 0.5;
 
+/// How the depths of an update are normalised: their kind, and the distance or disparity that the nearest depth stands for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unit {
+    kind: DepthKind,
+    /// The distance of normalised depth 0; of disparities the disparity, without any depth the speed.
+    pub nearest: f64,
+}
+
+impl Unit {
+    /// That of an update.
+    pub fn of(depth: &Depth, distances: &Option<Vec<Distance>>, motion: &[Option<Track>]) -> Self {
+        let (kind, nearest) = match (depth, distances) {
+            (Depth::Z(_), Some(distances)) => (DepthKind::Z, ROOM * extreme(distances, f64::INFINITY, f64::min)),
+            (Depth::Disparity(_), Some(distances)) => (DepthKind::Disparity, extreme(distances, 0.0, f64::max) / ROOM),
+            _ => (DepthKind::Speed, motion.iter().flatten().map(speed).fold(0.0, f64::max) / ROOM),
+        };
+        Self { kind, nearest }
+    }
+}
+
 /// Makes the update. All inputs have the picture's size.
 pub(super) fn assemble(
-    manifest: &Manifest,
+    unit: Unit,
     picture: &Picture,
     distances: &Option<Vec<Distance>>,
     motion: &[Option<Track>],
     census: &mut Census,
 ) -> Update {
-    let (depth_kind, unit) = match (&manifest.update.depth, distances) {
-        (Depth::Z(_), Some(distances)) => (DepthKind::Z, ROOM * extreme(distances, f64::INFINITY, f64::min)),
-        (Depth::Disparity(_), Some(distances)) => (DepthKind::Disparity, extreme(distances, 0.0, f64::max) / ROOM),
-        _ => (DepthKind::Speed, motion.iter().flatten().map(speed).fold(0.0, f64::max) / ROOM),
-    };
+    let Unit { kind: depth_kind, nearest: unit } = unit;
     let distance = |cell: usize| distances.as_ref().map(|distances| distances[cell]);
     let samples = picture.pixels.iter().zip(motion).enumerate().map(|(cell, (&colour, &track))| {
         let distance = distance(cell);

@@ -1,8 +1,9 @@
 //! What a report says of how it was made, and where its files go.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::CliError;
+use crate::report;
 
 /// The call, as it can be repeated.
 pub fn command() -> String {
@@ -29,8 +30,33 @@ pub fn machine() -> String {
     format!("{name}, {threads} threads")
 }
 
+/// Where a study's files go: the folder that was asked for, else `galpix-out/NAME`, and nowhere where only JSON is printed. It can be
+/// written to.
+pub fn folder(out: Option<&PathBuf>, json: bool, name: &str) -> Result<Option<PathBuf>, CliError> {
+    let out = match (out, json) {
+        (Some(out), _) => out.clone(),
+        (None, true) => return Ok(None),
+        (None, false) => Path::new("galpix-out").join(name),
+    };
+    writable(&out)?;
+    Ok(Some(out))
+}
+
+/// Writes files into a folder, in this order: where the last one is, the others are there too.
+pub fn write(out: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
+    files.iter().try_for_each(|(name, text)| {
+        let path = out.join(name);
+        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))
+    })
+}
+
+/// A document as the text of a file.
+pub fn json(document: &impl serde::Serialize) -> Result<String, CliError> {
+    Ok(serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))? + "\n")
+}
+
 /// Makes the folder and tries to write into it, before anything is measured.
-pub fn writable(out: &Path) -> Result<(), CliError> {
+pub(super) fn writable(out: &Path) -> Result<(), CliError> {
     let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
     std::fs::create_dir_all(out).map_err(unwritable)?;
     let probe = out.join(format!(".galpix.{}.probe", std::process::id()));

@@ -7,6 +7,7 @@ use galpix_core::rounding::Rounding;
 use crate::capture::{AccelerationPolicy, ImportOptions};
 use crate::experiment::Request;
 use crate::fill::{Fill, Gamma, Inpaint, Kind};
+use crate::hidden::Way;
 
 /// How positions are rounded.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
@@ -202,6 +203,7 @@ impl Extrapolation {
             reach: self.reach,
             edge_threshold: self.edge_threshold,
             perceptual: true,
+            way: Way::ONE,
         }
     }
 }

@@ -1,19 +1,18 @@
 //! `galpix error`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use galpix_core::fill::Rung;
 use galpix_core::rounding::Rounding;
 
-use super::call::{command, machine, writable};
+use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
 use super::{CliError, print, print_json};
 use crate::experiment::{Request, Source};
 use crate::fill::Fill;
 use crate::progress;
-use crate::report;
 use crate::tradeoff::design::{Extent, Kept};
 use crate::tradeoff::report::{Document, SourceReport};
 use crate::tradeoff::{self, Plan, csv, page, table};
@@ -106,14 +105,7 @@ impl Error {
         let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
         let sources: Vec<Source> = self.sources.iter().map(open).collect::<Result<_, _>>()?;
         sources.iter().try_for_each(|source| tradeoff::check(source, &plan).map_err(CliError::unusable))?;
-        let out = match (&self.out, self.json) {
-            (Some(out), _) => Some(out.clone()),
-            (None, true) => None,
-            (None, false) => Some(PathBuf::from("galpix-out/error")),
-        };
-        if let Some(out) = &out {
-            writable(out)?;
-        }
+        let out = call::folder(self.out.as_ref(), self.json, "error")?;
         let mut reports: Vec<SourceReport> = Vec::new();
         for source in &sources {
             let bar = progress::bar(0, &super::printable(source.name()));
@@ -136,7 +128,13 @@ impl Error {
             sources: reports,
         };
         if let Some(out) = &out {
-            write(out, &document)?;
+            // The page last, so that where there is one, the others are there too.
+            let files = [
+                ("error.csv", csv::csv(&document)),
+                ("error.json", call::json(&document)?),
+                ("error.html", page::html(&document)),
+            ];
+            call::write(out, &files)?;
         }
         match out {
             _ if self.json => print_json(&document),
@@ -177,15 +175,4 @@ impl Error {
             extent,
         })
     }
-}
-
-/// Writes the three files; the page last, so that where there is one, the others are there too.
-fn write(out: &Path, document: &Document) -> Result<(), CliError> {
-    let json = serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))? + "\n";
-    for (name, text) in [("error.csv", csv::csv(document)), ("error.json", json), ("error.html", page::html(document))]
-    {
-        let path = out.join(name);
-        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
-    }
-    Ok(())
 }

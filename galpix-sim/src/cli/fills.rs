@@ -1,11 +1,11 @@
 //! `galpix fills`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
 
-use super::call::{command, machine, writable};
+use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, Inpainting};
 use super::demo::sources;
 use super::{CliError, check, print, print_json, printable, printable_lines, say};
@@ -16,7 +16,6 @@ use crate::fills::export::{self, Export};
 use crate::fills::report::Document;
 use crate::fills::{self, FillsError, Plan, csv, page, table};
 use crate::progress;
-use crate::report;
 
 /// Arguments of `galpix fills`.
 #[derive(Debug, Args)]
@@ -55,14 +54,7 @@ impl Fills {
             names => names.iter().map(open).collect::<Result<_, _>>()?,
         };
         sources.iter().try_for_each(|source| check(source, &plan.request))?;
-        let out = match (&self.out, self.json) {
-            (Some(out), _) => Some(out.clone()),
-            (None, true) => None,
-            (None, false) => Some(PathBuf::from("galpix-out/fills")),
-        };
-        if let Some(out) = &out {
-            writable(out)?;
-        }
+        let out = call::folder(self.out.as_ref(), self.json, "fills")?;
         let export = out.as_deref().map(Export::new);
         let mut document = Document {
             version: env!("CARGO_PKG_VERSION"),
@@ -98,7 +90,15 @@ impl Fills {
             print(table::LEGEND)?;
         }
         if let Some(out) = &out {
-            write(out, &document)?;
+            let index = export::index(&document).map_err(|error| CliError::Failed(error.to_string()))?;
+            // The page last, so that where there is one, the others are there too.
+            let files = [
+                ("fills.csv", csv::csv(&document)),
+                ("fills.json", call::json(&document)?),
+                ("index.json", index),
+                ("fills.html", page::html(&document)),
+            ];
+            call::write(out, &files)?;
         }
         match out {
             _ if self.json => print_json(&document),
@@ -119,21 +119,4 @@ impl Fills {
         let request = Request { frames: self.frames, ..Request::default() };
         Ok(Plan { request, cases, fovea: self.inpainting.fovea })
     }
-}
-
-/// Writes the four files; the page last, so that where there is one, the others are there too.
-fn write(out: &Path, document: &Document) -> Result<(), CliError> {
-    let failed = |error: serde_json::Error| CliError::Failed(error.to_string());
-    let json = serde_json::to_string_pretty(document).map_err(failed)? + "\n";
-    let index = export::index(document).map_err(failed)?;
-    for (name, text) in [
-        ("fills.csv", csv::csv(document)),
-        ("fills.json", json),
-        ("index.json", index),
-        ("fills.html", page::html(document)),
-    ] {
-        let path = out.join(name);
-        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
-    }
-    Ok(())
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::choices::Extrapolation;
+use super::hidden::HiddenArguments;
 use super::{CliError, check, print, print_json, printable, say};
-use crate::experiment::{self, RunReport, Source};
+use crate::experiment::{self, Request, RunReport, Source};
 use crate::progress;
 
 /// Arguments of `galpix run`.
@@ -16,6 +17,8 @@ pub struct Run {
     source: String,
     #[command(flatten)]
     extrapolation: Extrapolation,
+    #[command(flatten)]
+    hidden: HiddenArguments,
     /// Folder for the frames [default: galpix-out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -27,7 +30,7 @@ pub struct Run {
 impl Run {
     /// Runs the source.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = self.extrapolation.request();
+        let request = Request { way: self.hidden.way(), ..self.extrapolation.request() };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         check(&source, &request)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
@@ -87,6 +90,13 @@ fn table(report: &RunReport) -> String {
         "frame  psnr dB     hold    known    ssim    flip  missing  border    holes  bullets     lost  collided  worst px"
             .to_owned(),
     ];
+    if let Some(hidden) = &report.hidden {
+        let said = format!(
+            "{}: {} layers beside the base; {} samples behind the first layer, {} handed over, {} shown",
+            hidden.way, hidden.layers, hidden.offered, hidden.kept, hidden.used
+        );
+        lines.insert(2, said);
+    }
     for frame in &report.frames {
         let truth = frame.truth.as_ref();
         lines.push(format!(

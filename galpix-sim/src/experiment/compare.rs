@@ -55,14 +55,20 @@ impl Errors {
     }
 }
 
-/// How far the galpixels of a frame are from where they should be.
-pub(crate) fn position<L: Layout>(source: &Source, update: &Update, frame: &Frame<'_, L>) -> Option<PositionReport> {
+/// How far the galpixels of a frame are from where they should be: of those that `cell` says are samples of the update, and which.
+pub(crate) fn position<L: Layout>(
+    source: &Source,
+    update: &Update,
+    frame: &Frame<'_, L>,
+    cell: impl Fn(u32) -> Option<usize>,
+) -> Option<PositionReport> {
     let wings = [update.wings.left as f64, update.wings.top as f64];
     let time = f64::from(frame.number);
     let (mut second_order, mut truth) = (Errors::default(), Errors::default());
     for (origin, place) in frame.places() {
-        let sample = update.samples.get(origin as usize)?;
-        let from = [(origin as usize % update.width) as f64, (origin as usize / update.width) as f64];
+        let Some(cell) = cell(origin) else { continue };
+        let sample = update.samples.get(cell)?;
+        let from = [(cell % update.width) as f64, (cell / update.width) as f64];
         let along = |i: usize| from[i] + sample.velocity[i] * time + sample.acceleration[i] / 2.0 * time * time;
         second_order.add(place, [along(0), along(1)]);
         if let Source::Scene(scene) = source {

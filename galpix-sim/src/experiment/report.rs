@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::capture::Census;
 use crate::certificate::Certificate;
 use crate::engine::LoadTally;
+use crate::hidden::HiddenReport;
 
 /// The widths in use, as they are reported.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -121,6 +122,9 @@ pub struct FrameReport {
     pub ns_per_galpixel: f64,
     /// Of the galpixels of the update that are still on the map.
     pub position: Option<PositionReport>,
+    /// Cells of the display that show a galpixel of a layer behind the first, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_hidden: Option<u32>,
     /// Where a truth is known.
     pub truth: Option<TruthReport>,
 }
@@ -146,6 +150,9 @@ pub struct RunReport {
     pub ns_per_galpixel: f64,
     /// What entered with the update.
     pub loaded: LoadTally,
+    /// What was handed over beside the first layer, if anything was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hidden: Option<HiddenReport>,
     /// What was known of a capture's cells.
     pub census: Option<Census>,
     /// The certificate in x and y.

@@ -1,6 +1,6 @@
 //! The core's inpainting over memory of the host.
 
-use galpix_core::frame::{Controller, Inpainting, Settings};
+use galpix_core::frame::{Inpainting, Settings};
 use galpix_core::galpixel::Budget;
 use galpix_core::grid::Grid;
 use galpix_core::inpaint::features::Workspace;
@@ -16,6 +16,7 @@ use galpix_core::inpaint::tone::Tone;
 use galpix_core::layout::Layout;
 
 use super::{Inpaint, Kind, in_fovea};
+use crate::engine::Show;
 
 /// Inpaints maps of one grid, frame by frame.
 pub struct Inpainter {
@@ -76,9 +77,9 @@ impl Inpainter {
         Self { inpaint, size, memory, mask }
     }
 
-    /// Inpaints what the last step of a controller uncovered, which was made with `settings`.
-    pub fn paint<L: Layout, B: Budget<L>>(&mut self, controller: &mut Controller<'_, L, B>, settings: &Settings) {
-        let depth_bits = u32::from(controller.front().record().depth().bits);
+    /// Inpaints what the last step uncovered, which was made with `settings`.
+    pub fn paint<'p, L: Layout, B: Budget<L>>(&mut self, show: &mut impl Show<'p, L, B>, settings: &Settings) {
+        let depth_bits = u32::from(show.front().record().depth().bits);
         let inpainting = if self.inpaint.depth_aware {
             let threshold = settings.edge_threshold >> depth_bits.saturating_sub(DEPTH_BITS);
             let rule = Rule { gamma: self.inpaint.gamma, threshold };
@@ -91,13 +92,13 @@ impl Inpainter {
         match &mut self.memory {
             Memory::PushPull { cells, states } => {
                 if let Ok(mut pyramid) = Pyramid::new(self.size[0], self.size[1], cells, states) {
-                    controller.inpaint(settings, &inpainting, &mut pyramid);
+                    show.inpaint(settings, &inpainting, &mut pyramid);
                 }
             }
             Memory::Metamer { recipe, tones, moments, states: [of_tones, of_moments], needs, workspace, noise } => {
                 let states: [&mut [u32]; 2] = [of_tones, of_moments];
                 let mut scratch = metamer::Scratch { tones, moments, states, needs, workspace, noise };
-                let done = controller.synthesise(settings, &inpainting, recipe, &mut scratch);
+                let done = show.synthesise(settings, &inpainting, recipe, &mut scratch);
                 debug_assert!(done.is_ok(), "{done:?}");
             }
         }

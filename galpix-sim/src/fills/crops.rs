@@ -1,13 +1,20 @@
 //! What each fill shows around the largest disocclusion, beside the truth.
 
+use std::borrow::Cow;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::holes::Holes;
 use crate::area::Window;
 use crate::picture::Picture;
+use crate::report::text::{Text, count};
 
 /// Cells around the area that are shown with it.
 const MARGIN: usize = 10;
+/// A part is magnified to about so many pixels, by a whole factor.
+const SHOWN: usize = 300;
 /// Cells of a side that are shown at least, and at most.
 const SIDE: [usize; 2] = [40, 96];
 
@@ -32,7 +39,7 @@ pub struct Largest {
 #[derive(Clone, Debug)]
 pub struct Crop {
     /// What it shows.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The part, not magnified.
     pub picture: Picture,
 }
@@ -49,8 +56,8 @@ pub fn largest(holes: &[Holes]) -> Option<Largest> {
 
 /// The part of a picture around the area.
 #[must_use]
-pub fn crop(name: &'static str, picture: &Picture, at: &Largest) -> Crop {
-    Crop { name, picture: picture.crop(at.left, at.top, at.width, at.height) }
+pub fn crop(name: impl Into<Cow<'static, str>>, picture: &Picture, at: &Largest) -> Crop {
+    Crop { name: name.into(), picture: picture.crop(at.left, at.top, at.width, at.height) }
 }
 
 /// The truth there, and what the warp left open.
@@ -60,7 +67,36 @@ pub fn of_truth(holes: &[Holes], at: &Largest) -> Vec<Crop> {
     frame.flat_map(|holes| [crop("truth", &holes.truth, at), crop("warped", &holes.warped, at)]).collect()
 }
 
+/// The parts as figures of a page, under a heading.
+#[must_use]
+pub fn html(source: &str, at: &Largest, crops: &[Crop]) -> String {
+    let figures: String = crops.iter().map(|crop| crop.figure(source)).collect();
+    format!(
+        "<h3>The largest disocclusion: {} cells of frame {}</h3><div class=\"crops\">{figures}</div>",
+        count(at.cells as u64),
+        at.frame
+    )
+}
+
 impl Crop {
+    /// As a figure of a page.
+    #[must_use]
+    pub fn figure(&self, source: &str) -> String {
+        let magnified = self.magnified((SHOWN / self.picture.width.max(1)).clamp(1, 8));
+        // A picture in memory can be encoded; if it cannot, the page does without it.
+        let bytes = magnified.png().unwrap_or_default();
+        format!(
+            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}: {}, magnified\" \
+             src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>",
+            magnified.width,
+            magnified.height,
+            Text(source),
+            Text(&self.name),
+            STANDARD.encode(bytes),
+            Text(&self.name)
+        )
+    }
+
     /// The part with each pixel as a square of `times` pixels.
     #[must_use]
     pub fn magnified(&self, times: usize) -> Picture {
@@ -77,7 +113,7 @@ mod tests {
     #[test]
     fn pixels_become_squares() {
         let picture = Picture { width: 2, height: 1, pixels: vec![[1; 3], [2; 3]] };
-        let magnified = Crop { name: "", picture }.magnified(2);
+        let magnified = Crop { name: "".into(), picture }.magnified(2);
         assert_eq!((magnified.width, magnified.height), (4, 2));
         assert_eq!(magnified.pixels.iter().map(|pixel| pixel[0]).collect::<Vec<_>>(), [1, 1, 2, 2, 1, 1, 2, 2]);
     }

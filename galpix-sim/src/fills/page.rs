@@ -1,9 +1,6 @@
 //! The report as a page: how to read it, and for each source a table, a plot of error against time, and parts of the pictures.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
-use super::crops::Crop;
+use super::crops;
 use super::report::{Document, FillReport, SourceReport};
 use crate::fill::Fill;
 use crate::report::axis::Scale;
@@ -11,9 +8,6 @@ use crate::report::scatter::{self, Mark, Scatter, Shape};
 use crate::report::text::{Text, count, figure, signed};
 use crate::report::{self, style::Ink};
 use crate::tradeoff::fill_ink;
-
-/// A part of a picture is magnified to about so many pixels, by a whole factor.
-const SHOWN: usize = 300;
 
 /// The document as a self-contained page.
 #[must_use]
@@ -23,12 +17,7 @@ pub fn html(document: &Document) -> String {
          over those cells alone."
             .to_owned(),
     ];
-    let mut facts = vec![
-        ("Version".to_owned(), document.version.to_owned()),
-        ("Command".to_owned(), document.command.clone()),
-        ("Machine".to_owned(), document.machine.clone()),
-        ("Took".to_owned(), format!("{:.0} s", document.seconds)),
-    ];
+    let mut facts = report::facts(document.version, &document.command, &document.machine, document.seconds);
     facts.extend(document.fovea.map(|radius| ("Fovea".to_owned(), format!("{radius} px, not judged"))));
     let sections: String = document.sources.iter().enumerate().map(|(index, source)| section(index, source)).collect();
     let main = [READING.to_owned(), sections, foot(document)].concat();
@@ -53,8 +42,7 @@ fn foot(document: &Document) -> String {
     if !document.nothing_disoccluded.is_empty() {
         notes.push(format!("Nothing is disoccluded in {}.", document.nothing_disoccluded.join(", ")));
     }
-    let items: String = notes.iter().map(|note| format!("<li>{}</li>", Text(note))).collect();
-    format!("<section><h2>Beside this</h2><ul class=\"notes\">{items}</ul></section>")
+    report::notes("Beside this", &notes)
 }
 
 fn section(index: usize, source: &SourceReport) -> String {
@@ -64,45 +52,15 @@ fn section(index: usize, source: &SourceReport) -> String {
         ("frames with a truth", source.cells.len().to_string()),
         ("disoccluded cells a frame", count(source.disoccluded() / frames)),
         ("variance of the truth", figure(source.truth.variance, 1)),
-    ]
-    .map(|(name, value)| format!("<li><b>{name}</b> {}</li>", Text(&value)))
-    .concat();
+    ];
     [
-        format!("<section class=\"story\" id=\"source-{index}\"><h2>{}</h2>", Text(&source.source)),
-        format!("<p class=\"about\">{}</p><ul class=\"tags\">{tags}</ul>", Text(&source.about)),
-        crops(source),
+        report::source_head(index, &source.source, &source.about, &tags),
+        crops::html(&source.source, &source.largest, &source.crops),
         format!("<div class=\"plots two\">{}{}</div>", plot(source, &FLIP), plot(source, &VARIANCE)),
         table(source),
         "</section>".to_owned(),
     ]
     .concat()
-}
-
-/// The part of the largest disocclusion as each fill shows it.
-fn crops(source: &SourceReport) -> String {
-    let at = &source.largest;
-    let shown = |crop: &Crop| {
-        let times = (SHOWN / crop.picture.width.max(1)).clamp(2, 8);
-        let magnified = crop.magnified(times);
-        // A picture in memory can be encoded; if it cannot, the page does without it.
-        let bytes = magnified.png().unwrap_or_default();
-        format!(
-            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}: {}, magnified\" \
-             src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>",
-            magnified.width,
-            magnified.height,
-            Text(&source.source),
-            Text(crop.name),
-            STANDARD.encode(bytes),
-            Text(crop.name)
-        )
-    };
-    let figures: String = source.crops.iter().map(shown).collect();
-    format!(
-        "<h3>The largest disocclusion: {} cells of frame {}</h3><div class=\"crops\">{figures}</div>",
-        count(at.cells as u64),
-        at.frame
-    )
 }
 
 /// What a plot shows over the time of a frame.

@@ -42,7 +42,7 @@ impl World {
     fn seen(&self, object: usize, x: u32, y: u32, t: f64) -> Option<(Sample, Point)> {
         let (wings, surface) = (self.scene.wings(), self.scene.surfaces()[object]);
         let hit = surface.hit(f64::from(x) - wings.left as f64, f64::from(y) - wings.top as f64, t)?;
-        Some((scene::sampled(surface, object, &hit, t), hit.point))
+        Some((scene::seen(surface, object, &hit, t), hit.point))
     }
 
     /// An object alone at frame `frame`: the smallest rectangle that holds it.

@@ -75,7 +75,7 @@ impl Subject<'_> {
             ran.unobscured += u64::from(tally.holes - tally.bullets);
             ran.saturated += u64::from(tally.saturated);
             ran.pictures.push(frame.picture());
-            let position = experiment::position(self.source, self.update, frame);
+            let position = experiment::position(self.source, self.update, frame, |origin| Some(origin as usize));
             if let Some(position) = position {
                 ran.worst_px = Some(ran.worst_px.map_or(position.worst_px, |worst| worst.max(position.worst_px)));
             }

@@ -34,6 +34,33 @@ pub fn document(title: &str, intro: &[String], facts: &[(String, String)], main:
     .concat()
 }
 
+/// What every report says of how it was made.
+#[must_use]
+pub fn facts(version: &str, command: &str, machine: &str, seconds: f64) -> Vec<(String, String)> {
+    let took = format!("{seconds:.0} s");
+    [("Version", version), ("Command", command), ("Machine", machine), ("Took", took.as_str())]
+        .map(|(name, value)| (name.to_owned(), value.to_owned()))
+        .to_vec()
+}
+
+/// A section of remarks, which are plain text.
+#[must_use]
+pub fn notes(title: &str, notes: &[String]) -> String {
+    let items: String = notes.iter().map(|note| format!("<li>{}</li>", Text(note))).collect();
+    format!("<section><h2>{}</h2><ul class=\"notes\">{items}</ul></section>", Text(title))
+}
+
+/// The head of a source's section: its name, what it shows, and figures about it, all plain text.
+#[must_use]
+pub fn source_head(index: usize, name: &str, about: &str, tags: &[(&str, String)]) -> String {
+    let tags: String = tags.iter().map(|(name, value)| format!("<li><b>{name}</b> {}</li>", Text(value))).collect();
+    format!(
+        "<section class=\"story\" id=\"source-{index}\"><h2>{}</h2><p class=\"about\">{}</p><ul class=\"tags\">{tags}</ul>",
+        Text(name),
+        Text(about)
+    )
+}
+
 fn header(title: &str, intro: &[String], facts: &[(String, String)]) -> String {
     let paragraphs: String = intro.iter().map(|text| format!("<p>{}</p>", Text(text))).collect();
     let facts: String = facts

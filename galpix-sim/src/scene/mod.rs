@@ -5,6 +5,7 @@
 //! rendered for real at the later time, and every galpixel with the place where its point of the surface truly is.
 
 mod ball;
+mod behind;
 mod crossing;
 mod disc;
 mod drift;
@@ -23,6 +24,8 @@ pub mod texture;
 
 #[cfg(test)]
 mod tests;
+
+pub use behind::{Peel, behind, each};
 
 use crate::overlay::Overlay;
 use crate::picture::Picture;
@@ -80,7 +83,7 @@ pub trait Scene: Sync {
         let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
             return Sample { depth: 1.0, ..Sample::default() };
         };
-        sampled(self.surfaces()[index], index, &hit, t)
+        seen(self.surfaces()[index], index, &hit, t)
     }
 
     /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y and
@@ -93,8 +96,17 @@ pub trait Scene: Sync {
     }
 }
 
-/// What an update says at time `t` of a point of surface `index`.
-pub(crate) fn sampled(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
+/// The point of one surface, its back's if `back`, that is seen or hidden at (`x`, `y`) at time `t`; nothing if the surface is not there.
+/// As [`Scene::sample`] has it where it is seen.
+#[must_use]
+pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2], t: f64) -> Option<Sample> {
+    let on = *scene.surfaces().get(surface)?;
+    let hit = if back { on.behind(x, y, t) } else { on.hit(x, y, t) };
+    Some(seen(on, surface, &hit?, t))
+}
+
+/// What is known of a point of surface `index` at time `t`.
+pub(crate) fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
     let place = surface.place(hit.point, Jet::time(t));
     Sample {
         colour: round(colour(surface, hit, t)),

@@ -22,10 +22,10 @@ fn along(start: Vector, distance: f64, direction: Vector) -> Vector {
     [0, 1, 2].map(|i| start[i] + distance * direction[i])
 }
 
-/// The nearer real root of `a s² - 2 b s + c = 0` for positive `a`.
-fn nearer_root(a: f64, b: f64, c: f64) -> Option<f64> {
+/// Where a ray meets a body: the real roots of `a s² - 2 b s + c = 0` for positive `a`, the nearer one first.
+fn roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     let discriminant = b * b - a * c;
-    (discriminant >= 0.0).then(|| (b - discriminant.sqrt()) / a)
+    (discriminant >= 0.0).then(|| [(b - discriminant.sqrt()) / a, (b + discriminant.sqrt()) / a])
 }
 
 /// A pinhole camera.
@@ -112,16 +112,26 @@ pub struct Globe {
     pub paint: fn(Vector) -> Rgb,
 }
 
-impl Surface for Globe {
-    fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+impl Globe {
+    fn meet(&self, [x, y]: [f64; 2], t: f64, back: bool) -> Option<Hit> {
         let centre = [self.centre[0].value(t), self.centre[1].value(t), self.centre[2].value(t)];
         let (eye, ray) = (self.lens.eye(t), self.lens.ray(x, y));
         let to_centre = minus(centre, eye);
         let reach = dot(to_centre, to_centre) - self.radius * self.radius;
-        let z = nearer_root(dot(ray, ray), dot(ray, to_centre), reach)?;
+        let z = roots(dot(ray, ray), dot(ray, to_centre), reach)?[usize::from(back)];
         let depth = self.lens.depth(z)?;
         let point = minus(along(eye, z, ray), centre).map(|offset| offset / self.radius);
         Some(Hit { point, depth })
+    }
+}
+
+impl Surface for Globe {
+    fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+        self.meet([x, y], t, false)
+    }
+
+    fn behind(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+        self.meet([x, y], t, true)
     }
 
     fn place(&self, normal: Point, t: Jet) -> [Jet; 3] {
@@ -147,16 +157,26 @@ pub struct Column {
     pub paint: fn(Vector) -> Rgb,
 }
 
-impl Surface for Column {
-    fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+impl Column {
+    fn meet(&self, [x, y]: [f64; 2], t: f64, back: bool) -> Option<Hit> {
         let (eye, ray) = (self.lens.eye(t), self.lens.ray(x, y));
         let (dx, dz) = (self.axis[0] - eye[0], self.axis[1] - eye[2]);
         let outside = dx * dx + dz * dz - self.radius * self.radius;
-        let z = nearer_root(ray[0] * ray[0] + 1.0, ray[0] * dx + dz, outside)?;
+        let z = roots(ray[0] * ray[0] + 1.0, ray[0] * dx + dz, outside)?[usize::from(back)];
         let depth = self.lens.depth(z)?;
         let place = along(eye, z, ray);
         let [nx, nz] = [(place[0] - self.axis[0]) / self.radius, (place[2] - self.axis[1]) / self.radius];
         (self.reach[0] <= place[1] && place[1] <= self.reach[1]).then_some(Hit { point: [nx, place[1], nz], depth })
+    }
+}
+
+impl Surface for Column {
+    fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+        self.meet([x, y], t, false)
+    }
+
+    fn behind(&self, x: f64, y: f64, t: f64) -> Option<Hit> {
+        self.meet([x, y], t, true)
     }
 
     fn place(&self, [nx, y, nz]: Point, t: Jet) -> [Jet; 3] {

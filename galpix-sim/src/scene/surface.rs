@@ -21,6 +21,11 @@ pub trait Surface: Sync {
     /// The point seen at display position (`x`, `y`) (pixels) at `t` (frames), if the surface is there.
     fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit>;
 
+    /// The point of the back that would be seen at the same place if the front were not there; only solid bodies have a back.
+    fn behind(&self, _x: f64, _y: f64, _t: f64) -> Option<Hit> {
+        None
+    }
+
     /// Where `point` is at `t`: x and y in pixels, normalised depth; with derivatives if `t` has them.
     fn place(&self, point: Point, t: Jet) -> [Jet; 3];
 

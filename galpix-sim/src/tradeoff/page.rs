@@ -14,13 +14,7 @@ pub fn html(document: &Document) -> String {
          left is better in both; what nothing beats is on the front and has a letter."
             .to_owned(),
     ];
-    let facts = [
-        ("Version", document.version.to_owned()),
-        ("Command", document.command.clone()),
-        ("Machine", document.machine.clone()),
-        ("Took", format!("{:.0} s", document.seconds)),
-    ]
-    .map(|(name, value)| (name.to_owned(), value));
+    let facts = report::facts(document.version, &document.command, &document.machine, document.seconds);
     let sections: String = document.sources.iter().enumerate().map(|(index, source)| section(index, source)).collect();
     let main = [READING, &sections, FOOT].concat();
     report::document("galpix: error against run time", &intro, &facts, &main, "")
@@ -55,12 +49,9 @@ fn section(index: usize, source: &SourceReport) -> String {
             format!("D = {} px, tau_recog = {}, tau_prop = {}", demand.extent, demand.recog, demand.prop),
         ),
         ("points", source.points.len().to_string()),
-    ]
-    .map(|(name, value)| format!("<li><b>{name}</b> {}</li>", Text(&value)))
-    .concat();
+    ];
     [
-        format!("<section class=\"story\" id=\"source-{index}\"><h2>{}</h2>", Text(&source.source)),
-        format!("<p class=\"about\">{}</p><ul class=\"tags\">{tags}</ul>", Text(&source.about)),
+        report::source_head(index, &source.source, &source.about, &tags),
         gain(source),
         format!("<div class=\"plots two\">{}</div>", figures::all(source)),
         fronts(source),

@@ -31,6 +31,15 @@ pub trait Contender {
     fn restart(&mut self, update: &Update);
     /// Makes the next frame.
     fn step(&mut self);
+    /// Makes the next frames; the seconds that each took.
+    fn times(&mut self, frames: u32) -> Vec<f64> {
+        let time = |_| {
+            let start = ThreadTime::now();
+            self.step();
+            start.elapsed().as_secs_f64()
+        };
+        (0..frames).map(time).collect()
+    }
 }
 
 /// A time, and its ratio to a copy of the same bytes in the same run.
@@ -145,7 +154,7 @@ impl Contender for InFloats {
 }
 
 /// Makes a contender when its turn comes; `None` where there cannot be one.
-pub type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender>> + 'm>;
+pub type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender + 'm>> + 'm>;
 
 /// How often things are timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -167,12 +176,7 @@ pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl 
             let bytes = contender.bytes();
             contender.restart(update);
             let before = copy.time(bytes);
-            let times = (0..effort.frames).map(|_| {
-                let start = ThreadTime::now();
-                contender.step();
-                start.elapsed().as_secs_f64()
-            });
-            let time = median(times.collect());
+            let time = median(contender.times(effort.frames));
             let after = copy.time(bytes);
             // The first round warms up.
             if let (Some(time), true) = (time, round > 0) {

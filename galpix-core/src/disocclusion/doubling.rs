@@ -1,0 +1,135 @@
+//! Spreading in steps of 1, 2, 4, ... cells, as Algorithm 2 of the supplement has it: for machines that work on all cells at once.
+//!
+//! Each of the four scans of [`super::spread()`] in two rounds of steps. The extent that moves is as simple as printed: the largest of its own and of
+//! those `m` cells before it, shorter by `m`. The others are carried as far as an unbroken chain of cells hands them on, which is what `linked` says: cell by
+//! cell at first, then of twice as many cells if it held for both halves. Every step reads all cells as they were before it.
+
+use super::extents::{DOWNWARDS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, larger};
+use crate::grid::Grid;
+
+/// A scan: the extent that moves, and the step of one cell against its way.
+#[derive(Clone, Copy)]
+struct Scan {
+    way: u32,
+    back: [i32; 2],
+}
+
+const SCANS: [Scan; 4] = [
+    Scan { way: TO_THE_RIGHT, back: [-1, 0] },
+    Scan { way: TO_THE_LEFT, back: [1, 0] },
+    Scan { way: DOWNWARDS, back: [0, -1] },
+    Scan { way: UPWARDS, back: [0, 1] },
+];
+
+/// Bits of `linked`: as it is, and as it becomes.
+const IS: u32 = 0;
+const BECOMES: u32 = 1;
+
+/// As [`super::spread()`], bit by bit, in steps whose number grows with the logarithm of the sides.
+///
+/// `extents` must have a word for each cell, and `spare` two; else nothing is done.
+pub fn spread_by_doubling(extents: &mut [u32], spare: &mut [u32], grid: &Grid<'_>) -> u32 {
+    let cells = grid.cells() as usize;
+    let Some(extents) = extents.get_mut(..cells) else { return 0 };
+    let Some((next, linked)) = spare.split_at_mut_checked(cells) else { return 0 };
+    let Some(linked) = linked.get_mut(..cells) else { return 0 };
+    for scan in SCANS {
+        let sides = [grid.width(), grid.height()];
+        let side = if scan.back[0] != 0 { sides[0] } else { sides[1] };
+        let levels = 32 - side.leading_zeros();
+        for level in 0..levels {
+            step(extents, next, grid, scan, 1 << level, |own, before, _| {
+                let moved = (before >> scan.way & 0xff).saturating_sub(1 << level);
+                larger(own, moved << scan.way)
+            });
+        }
+        link(extents, linked, grid, scan);
+        for level in 0..levels {
+            // The first step leaves nothing but one cell behind a cell that it reaches.
+            let carried = !(0xff << scan.way | 0xff << (scan.way ^ 8));
+            let behind = if level == 0 { 1 << (scan.way ^ 8) } else { 0 };
+            step(extents, next, grid, scan, 1 << level, |own, before, cell| {
+                if at(linked, cell) >> IS & 1 != 0 { larger(own, before & carried | behind) } else { own }
+            });
+            double(linked, grid, scan, 1 << level);
+        }
+    }
+    extents.iter().map(|&word| u32::from(word != 0)).sum()
+}
+
+fn at(words: &[u32], cell: u32) -> u32 {
+    words.get(cell as usize).copied().unwrap_or(0)
+}
+
+/// The cell `by` cells back on a scan.
+fn back(grid: &Grid<'_>, scan: Scan, x: u32, y: u32, by: i32) -> Option<u32> {
+    let [dx, dy] = scan.back;
+    grid.cell(
+        x as i32
+            + if dx < 0 {
+                -by
+            } else if dx > 0 {
+                by
+            } else {
+                0
+            },
+        y as i32
+            + if dy < 0 {
+                -by
+            } else if dy > 0 {
+                by
+            } else {
+                0
+            },
+    )
+}
+
+/// Each cell that has one `by` cells back becomes `new(itself, that one, its number)`.
+fn step(
+    extents: &mut [u32],
+    next: &mut [u32],
+    grid: &Grid<'_>,
+    scan: Scan,
+    by: i32,
+    new: impl Fn(u32, u32, u32) -> u32,
+) {
+    for (&start, y) in grid.starts().iter().zip(0..) {
+        for x in 0..grid.width() {
+            let cell = start + x;
+            let own = at(extents, cell);
+            if let Some(to) = next.get_mut(cell as usize) {
+                *to = back(grid, scan, x, y, by).map_or(own, |before| new(own, at(extents, before), cell));
+            }
+        }
+    }
+    for (to, &from) in extents.iter_mut().zip(&*next) {
+        *to = from;
+    }
+}
+
+/// Which cells get something from the one before them.
+fn link(extents: &[u32], linked: &mut [u32], grid: &Grid<'_>, scan: Scan) {
+    for (&start, y) in grid.starts().iter().zip(0..) {
+        for x in 0..grid.width() {
+            let hands_on = back(grid, scan, x, y, 1).is_some_and(|before| at(extents, before) >> scan.way & 0xff >= 2);
+            if let Some(to) = linked.get_mut((start + x) as usize) {
+                *to = u32::from(hands_on) << IS;
+            }
+        }
+    }
+}
+
+/// Which cells are at the end of a chain of `2 by` links, from those of `by`.
+fn double(linked: &mut [u32], grid: &Grid<'_>, scan: Scan, by: i32) {
+    for (&start, y) in grid.starts().iter().zip(0..) {
+        for x in 0..grid.width() {
+            let before = back(grid, scan, x, y, by).map_or(0, |before| at(linked, before));
+            if let Some(to) = linked.get_mut((start + x) as usize) {
+                *to |= (*to & before) >> IS << BECOMES & 1 << BECOMES;
+            }
+        }
+    }
+    for links in linked {
+        *links = *links >> BECOMES << IS;
+    }
+}

@@ -1,0 +1,116 @@
+//! Which of two neighbours leaves the other, and what it uncovers.
+
+use super::Reach;
+use super::extents::Extents;
+use super::reach::{Bound, Motion};
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::record::Record;
+
+/// The key of what nothing is behind: empty cells, and what lies beyond the border.
+pub(crate) const FARTHEST: i32 = i32::MAX;
+
+/// The largest separation: even the last key is nearer than [`FARTHEST`] by as much.
+pub(crate) const WIDEST_SEPARATION: u32 = 1 << 30;
+
+/// What is asked of a galpixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Body {
+    /// Class and depth, the smaller the nearer.
+    key: i32,
+    /// In x and y.
+    motion: [Motion; 2],
+}
+
+impl Body {
+    /// Nothing, infinitely far away, and still.
+    pub const NOTHING: Self = Self { key: FARTHEST, motion: [Motion { offset: 0, velocity: 0, acceleration: 0 }; 2] };
+
+    /// What is in a cell.
+    #[inline(always)]
+    pub fn read<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, cell: u32) -> Self {
+        let (Some(words), Some(key)) = (front.words_at(cell), front.key_at(cell)) else { return Self::NOTHING };
+        let record = front.record();
+        if record.class().unsigned(&words) == Class::Empty as u32 {
+            return Self::NOTHING;
+        }
+        let motion = |component: usize| Motion {
+            offset: record.offset(component).signed(&words),
+            velocity: record.velocity(component).signed(&words),
+            acceleration: record.acceleration(component).signed(&words) << record.scales[component].acceleration_up,
+        };
+        Self { key: key as i32, motion: [motion(0), motion(1)] }
+    }
+}
+
+/// What two neighbours uncover.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(crate) struct Uncovered {
+    /// By the left or upper one, in itself and behind it.
+    pub first: Extents,
+    /// By the right or lower one.
+    pub second: Extents,
+    /// Whether an extent was cut off at 255.
+    pub cut: bool,
+}
+
+/// The rule for all pairs of a map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rule {
+    /// In x and y.
+    pub bounds: [Bound; 2],
+    pub separation: i32,
+    /// Whether neighbours of one surface count that part by a whole cell.
+    pub tears: bool,
+}
+
+impl Rule {
+    pub fn new(record: &Record, reach: &Reach) -> Self {
+        let frames = reach.frames.min(Reach::MOST_FRAMES);
+        let [x, y, _] = &record.scales;
+        let bound = |scale, component| Bound::new(scale, record.acceleration(component).present(), frames);
+        let separation = reach.separation.min(WIDEST_SEPARATION) as i32;
+        Self { bounds: [bound(x, 0), bound(y, 1)], separation, tears: reach.tears }
+    }
+
+    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower), or nothing if none of
+    /// them leaves.
+    #[inline(never)]
+    pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Option<Uncovered> {
+        let ([x, y], [first_x, first_y], [second_x, second_y]) = (&self.bounds, first.motion, second.motion);
+        let (along, across) = if ALONG == 0 { (x, y) } else { (y, x) };
+        let (first_along, first_across) = if ALONG == 0 { (first_x, first_y) } else { (first_y, first_x) };
+        let (second_along, second_across) = if ALONG == 0 { (second_x, second_y) } else { (second_y, second_x) };
+        let gap = along.cells(second_along, first_along);
+        if gap == 0 {
+            return None;
+        }
+        let farther = second.key.wrapping_sub(first.key);
+        let one_surface = farther < self.separation && farther > -self.separation;
+        if one_surface && !(self.tears && along.parts(second_along, first_along)) {
+            return None;
+        }
+        // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
+        let onwards = across.cells(second_across, first_across) + 1;
+        let backwards = across.cells(first_across, second_across) + 1;
+        let cut = gap > 255 || onwards > 255 || backwards > 255;
+        let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(255) as u8);
+        let (one, other) = if ALONG == 0 {
+            (
+                Extents { left: gap, right: 1, above: onwards, below: backwards },
+                Extents { left: 1, right: gap, above: backwards, below: onwards },
+            )
+        } else {
+            (
+                Extents { left: onwards, right: backwards, above: gap, below: 1 },
+                Extents { left: backwards, right: onwards, above: 1, below: gap },
+            )
+        };
+        // The nearer one leaves; two of one surface, or as near, both.
+        let both = one_surface || farther == 0;
+        let first = if both || farther > 0 { one } else { Extents::default() };
+        let second = if both || farther < 0 { other } else { Extents::default() };
+        Some(Uncovered { first, second, cut })
+    }
+}

@@ -1,0 +1,118 @@
+//! Spreading in raster order: what a cell uncovers is handed on from neighbour to neighbour. What Algorithm 2 of the supplement is for.
+//!
+//! Four scans, one after the other: along each row to the right, to the left; down each column, up each column. In a scan a cell hands on its
+//! extents, the one that moves with the scan shorter by one, and the next cell takes the larger of these and its own; the
+//! order is that of the memory, and nothing is needed beside the map itself.
+
+use super::extents::{DOWNWARDS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, larger};
+use crate::grid::Grid;
+
+/// Cells that are passed by at once where nothing is uncovered.
+const BLOCK: usize = 16;
+
+/// Scans a row to the right and to the left. Only the bits `carried` of what is handed on are.
+#[inline(always)]
+pub(crate) fn along(row: &mut [u32], carried: u32) {
+    let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
+    let mut handed = 0;
+    for block in &mut *blocks {
+        if handed | any(block) != 0 {
+            handed = rightwards(block, handed, carried);
+        }
+    }
+    rightwards(rest, handed, carried);
+    handed = leftwards(rest, 0, carried);
+    for block in blocks.iter_mut().rev() {
+        if handed | any(block) != 0 {
+            handed = leftwards(block, handed, carried);
+        }
+    }
+}
+
+/// Whether anything is uncovered in some cells.
+#[inline(always)]
+fn any(block: &[u32]) -> u32 {
+    block.iter().fold(0, |any, word| any | word)
+}
+
+#[inline(always)]
+fn rightwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
+    for word in block {
+        *word = larger(*word, handed);
+        handed = handed_on::<TO_THE_RIGHT>(*word) & carried;
+    }
+    handed
+}
+
+#[inline(always)]
+fn leftwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
+    for word in block.iter_mut().rev() {
+        *word = larger(*word, handed);
+        handed = handed_on::<TO_THE_LEFT>(*word) & carried;
+    }
+    handed
+}
+
+/// A row takes what the one before it on the way `WAY` hands on.
+pub(crate) fn across<const WAY: u32>(from: &[u32], to: &mut [u32]) {
+    let (blocks, rest) = from.as_chunks::<BLOCK>();
+    let (to_blocks, to_rest) = to.as_chunks_mut::<BLOCK>();
+    for (from, to) in blocks.iter().zip(to_blocks) {
+        if any(from) != 0 {
+            take::<WAY>(from, to);
+        }
+    }
+    take::<WAY>(rest, to_rest);
+}
+
+#[inline(always)]
+fn take<const WAY: u32>(from: &[u32], to: &mut [u32]) {
+    for (&from, to) in from.iter().zip(to) {
+        *to = larger(*to, handed_on::<WAY>(from));
+    }
+}
+
+/// The row that begins at `start`, and the one after it.
+#[inline(always)]
+pub(crate) fn rows(extents: &mut [u32], start: u32, width: u32) -> Option<(&mut [u32], &mut [u32])> {
+    let two = extents.get_mut(start as usize..(start + 2 * width) as usize)?;
+    two.split_at_mut_checked(width as usize)
+}
+
+/// The row that begins at `start` takes what the one above it hands on.
+#[inline(always)]
+pub(crate) fn downwards(extents: &mut [u32], start: u32, width: u32) {
+    if let Some(above) = start.checked_sub(width)
+        && let Some((above, row)) = rows(extents, above, width)
+    {
+        across::<DOWNWARDS>(above, row);
+    }
+}
+
+/// All rows from the last up take what the one below them hands on; returns how many cells are covered then.
+pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
+    let width = grid.width();
+    let mut covered = 0;
+    for &start in grid.starts().iter().rev() {
+        if let Some((row, below)) = rows(extents, start, width) {
+            across::<UPWARDS>(below, row);
+        }
+        let row = extents.get(start as usize..(start + width) as usize).unwrap_or_default();
+        covered += row.iter().map(|&word| u32::from(word != 0)).sum::<u32>();
+    }
+    covered
+}
+
+/// Spreads a map that [`super::mark`] has marked; returns how many cells are covered.
+///
+/// `extents` must have a word for each cell of the grid; rows that are not all there are left out. What is spread already stays
+/// as it is where extents only come from cells that are uncovered; mark anew before each spreading.
+pub fn spread(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
+    for &start in grid.starts() {
+        if let Some(row) = extents.get_mut(start as usize..(start + grid.width()) as usize) {
+            along(row, u32::MAX);
+        }
+        downwards(extents, start, grid.width());
+    }
+    upwards(extents, grid)
+}

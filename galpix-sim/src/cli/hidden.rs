@@ -1,0 +1,55 @@
+//! Arguments that say what is handed over beside the first layer.
+
+use clap::{Args, ValueEnum};
+
+use crate::hidden::{Kind, RADIUS, SEPARATION, Way};
+
+/// What is known behind the first layer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum HiddenChoice {
+    /// Nothing: one layer
+    #[default]
+    None,
+    /// A second layer of depth
+    Second,
+    /// What a depth discontinuity occlusion camera sees around the edges
+    Ddoc,
+    /// Every surface, whole, in a layer of its own
+    Unlimited,
+}
+
+/// What is handed over beside the first layer, and how.
+#[derive(Clone, Debug, Default, Args)]
+pub struct HiddenArguments {
+    /// What is handed over beside the first layer
+    #[arg(long, value_enum, value_name = "KIND", default_value_t)]
+    hidden: HiddenChoice,
+    /// For second: how far it lies behind the first layer at least, as a part of the depth range [default: 1/64]
+    #[arg(long, value_name = "PART", value_parser = separation)]
+    separation: Option<f64>,
+    /// Hand over what cannot be uncovered before the next update, too
+    #[arg(long)]
+    uncut: bool,
+}
+
+impl HiddenArguments {
+    /// The way that these arguments mean.
+    pub fn way(&self) -> Way {
+        let separation = self.separation.unwrap_or(SEPARATION);
+        let kind = match self.hidden {
+            HiddenChoice::None => return Way::ONE,
+            HiddenChoice::Second => Kind::Second { separation },
+            HiddenChoice::Ddoc => Kind::Ddoc { radius: RADIUS },
+            HiddenChoice::Unlimited => Kind::Unlimited,
+        };
+        Way { kind, culled: !self.uncut, ..Way::ONE }
+    }
+}
+
+/// A part of the depth range that two layers are apart, from an argument.
+pub fn separation(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(part) if (0.0..1.0).contains(&part) => Ok(part),
+        _ => Err("give a number from 0 to below 1".to_owned()),
+    }
+}

@@ -1,0 +1,82 @@
+//! Which sample of which layer each cell holds and shows.
+
+use galpix_core::fill::FILLED;
+use galpix_core::galpixel::{Budget, Class};
+use galpix_core::layout::Layout;
+
+use super::hidden::Beside;
+use super::show::Show;
+use crate::update::{Known, Update};
+
+/// In an origin map: this cell does not hold a galpixel of the update.
+pub const NO_ORIGIN: u32 = u32::MAX;
+
+/// The origins of all layers. A sample's number is its cell, plus the cells of an update for each layer above its own.
+pub(super) struct Origins {
+    /// For each layer, for each cell of its own map.
+    own: Vec<Vec<u32>>,
+    /// For each cell of what is shown.
+    pub shown: Vec<u32>,
+    /// For each sample, whether the display ever showed it.
+    pub used: Vec<bool>,
+    cells: usize,
+}
+
+impl Origins {
+    /// Those of the update itself.
+    pub fn new(update: &Update, beside: &[Beside<'_>]) -> Self {
+        let cells = update.samples.len();
+        let layers = std::iter::once(update).chain(beside.iter().map(Beside::update));
+        let own: Vec<Vec<u32>> = (0u32..)
+            .zip(layers)
+            .map(|(layer, update)| {
+                let known = (layer * cells as u32..).zip(&update.samples);
+                known.map(|(origin, sample)| if sample.known == Known::Motion { origin } else { NO_ORIGIN }).collect()
+            })
+            .collect();
+        Self { shown: own[0].clone(), used: vec![false; own.len() * cells], own, cells }
+    }
+
+    /// Follows a step; `beside` are the layers that it was made with.
+    pub fn follow<'p, L: Layout, B: Budget<L>>(&mut self, show: &impl Show<'p, L, B>, beside: &[Beside<'_>]) {
+        for (layer, own) in self.own.iter_mut().enumerate() {
+            // Samples that stay where they are stored keep their numbers.
+            if layer == 0 || matches!(beside[layer - 1], Beside::Moving(_)) {
+                *own = show.winners(layer).iter().map(|&winner| origin(own, winner)).collect();
+            }
+        }
+    }
+
+    /// Notes what is shown; `seen` are the cells of the display.
+    pub fn look<'p, L: Layout, B: Budget<L>>(
+        &mut self,
+        show: &impl Show<'p, L, B>,
+        beside: &[Beside<'_>],
+        seen: impl Iterator<Item = u32>,
+    ) {
+        let shown = (0..self.cells as u32).map(|cell| {
+            if show.front().class(cell) != Class::Galpixel {
+                return NO_ORIGIN;
+            }
+            let layer = show.layer_at(cell);
+            let Some(own) = self.own.get(layer) else { return NO_ORIGIN };
+            match layer.checked_sub(1).map(|beside_| &beside[beside_]) {
+                Some(Beside::Anchored { .. }) => {
+                    show.winners(layer).get(cell as usize).map_or(NO_ORIGIN, |&stored| origin(own, stored))
+                }
+                _ => own[cell as usize],
+            }
+        });
+        self.shown = shown.collect();
+        for cell in seen {
+            if let Some(used) = self.used.get_mut(self.shown[cell as usize] as usize) {
+                *used = true;
+            }
+        }
+    }
+}
+
+/// The origin of what `winner` was.
+fn origin(before: &[u32], winner: u32) -> u32 {
+    if winner >= FILLED { NO_ORIGIN } else { before.get(winner as usize).copied().unwrap_or(NO_ORIGIN) }
+}

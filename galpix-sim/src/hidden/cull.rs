@@ -1,0 +1,49 @@
+//! The disocclusion map of an update, as a display controller would make it: of the quantised map.
+
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use galpix_core::disocclusion::{self, Border, Reach, Tally};
+use galpix_core::galpixel::Chosen;
+use galpix_core::galpixmap::Galpixmap;
+use galpix_core::grid::Grid;
+use galpix_core::layout::Layout;
+
+use crate::engine::{EngineError, core_wings, grid, load};
+use crate::update::Update;
+
+/// A disocclusion map.
+#[derive(Clone, Debug)]
+pub struct Culling {
+    /// For each cell, a word of extents, see [`disocclusion::Extents`].
+    pub extents: Vec<u32>,
+    /// What was counted.
+    pub tally: Tally,
+    /// Processor time that it took.
+    pub time: Duration,
+}
+
+impl Culling {
+    /// Whether what is hidden in a cell may be uncovered.
+    #[must_use]
+    pub fn covers(&self, cell: usize) -> bool {
+        disocclusion::covered(&self.extents, cell as u32)
+    }
+}
+
+/// The disocclusion map of an update for `frames` frames; more than [`Reach::MOST_FRAMES`] count as that.
+///
+/// *Errors:* an update that cannot be laid out.
+pub fn culling<L: Layout>(update: &Update, budget: Chosen<L>, frames: u32) -> Result<Culling, EngineError> {
+    let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
+    let grid = grid(update, &mut starts)?;
+    let mut memory = vec![0; Galpixmap::<L, _>::words(&grid, budget)];
+    let mut map = Galpixmap::<L, _>::new(grid, budget, &mut memory)?;
+    load(update, &mut map);
+    let mut extents = vec![0; grid.cells() as usize];
+    let reach =
+        Reach { border: Border::Continues, tears: false, ..Reach::new(frames, u32::from(map.record().depth().bits)) };
+    let started = ThreadTime::now();
+    let tally = disocclusion::map(&map, &mut extents, &reach);
+    Ok(Culling { extents, tally, time: started.elapsed() })
+}
