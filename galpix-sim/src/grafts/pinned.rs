@@ -36,7 +36,7 @@ pub struct PinnedWay {
     pub pinned_wrong: f64,
     /// Other pixels that do not show what they show beside a pinned overlay, mean over the frames.
     pub others_smeared: f64,
-    /// PSNR against the truth, dB, mean over the frames.
+    /// PSNR against the truth, dB, of all frames together, see [`metric::pooled_db`].
     pub psnr_db: f64,
     /// The worst frame's.
     pub worst_psnr_db: f64,
@@ -65,6 +65,7 @@ pub(super) fn compare(scene: &dyn Scene, overlay: &Overlay) -> Result<PinnedRepo
         let shown = pictures(update, scene.frames())?;
         let mut found =
             PinnedWay { way, pinned_wrong: 0.0, others_smeared: 0.0, psnr_db: 0.0, worst_psnr_db: f64::INFINITY };
+        let mut decibels = Vec::new();
         let share = 1.0 / f64::from(scene.frames());
         for ((shown, beside), truth) in shown.iter().zip(&beside).zip(&truths) {
             for (((shown, beside), truth), pinned) in
@@ -73,10 +74,10 @@ pub(super) fn compare(scene: &dyn Scene, overlay: &Overlay) -> Result<PinnedRepo
                 found.pinned_wrong += share * f64::from(u8::from(pinned.is_some() && shown != truth));
                 found.others_smeared += share * f64::from(u8::from(pinned.is_none() && shown != beside));
             }
-            let psnr = metric::psnr_db(shown, truth, None).unwrap_or(0.0);
-            found.psnr_db += share * psnr;
-            found.worst_psnr_db = found.worst_psnr_db.min(psnr);
+            decibels.push(metric::psnr_db(shown, truth, None).unwrap_or(0.0));
         }
+        found.psnr_db = metric::pooled_db(&decibels);
+        found.worst_psnr_db = decibels.iter().copied().fold(f64::INFINITY, f64::min);
         ways.push(found);
     }
     Ok(PinnedReport { pixels: overlay.pixels.len(), pinned: overlay.pinned(), frames: scene.frames(), ways })

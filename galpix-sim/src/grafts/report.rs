@@ -36,7 +36,7 @@ pub struct WayReport {
     pub cells_per_frame: f64,
     /// Galpixels among them.
     pub galpixels_per_frame: f64,
-    /// PSNR against the truth, dB: mean over the frames after the beginning.
+    /// PSNR against the truth, dB, of all frames after the beginning together, see [`crate::metric::pooled_db`].
     pub psnr_db: f64,
     /// The worst frame's.
     pub worst_psnr_db: f64,
@@ -150,5 +150,5 @@ pub fn table(report: &GraftReport) -> String {
 
 /// What the columns mean.
 pub const LEGEND: &str = "objects, backgr.: frames from one rendering to the next; late: frames until it enters; cells/f: cells \
-    sent a frame; dB, worst, FLIP: against the truth; obj px, back px: how far shown galpixels are from their true places; \
+    sent a frame; dB (of all frames together), worst, FLIP: against the truth; obj px, back px: how far shown galpixels are from their true places; \
     missing: cells that no galpixel reached (the last three without fills); refused: renderings that the queue refused, of all";

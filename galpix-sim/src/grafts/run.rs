@@ -10,6 +10,7 @@ use galpix_core::grid::Grid;
 use galpix_core::layers::{Layer, Layers, seat_words};
 use galpix_core::layout::Shaded;
 use galpix_core::objects::{Limits, Object, ObjectsTally, Queue};
+use galpix_core::scan_out;
 
 use super::report::{GraftedReport, RefusedReport, WayReport};
 use super::world::{Rendering, World};
@@ -17,7 +18,6 @@ use crate::engine::{EngineError, core_wings, galpixel};
 use crate::metric;
 use crate::picture::Picture;
 use crate::scene::{self, jet::Jet, surface::Point};
-use galpix_core::scan_out;
 
 type Maps<'p, const HIDDEN: usize> = Layers<'p, Shaded, Chosen<Shaded>, HIDDEN>;
 
@@ -65,6 +65,7 @@ struct Sums {
     galpixels: u64,
     /// Sum of distances and their number: objects, background.
     apart: [(f64, u64); 2],
+    decibels: Vec<f64>,
     picture: Option<Picture>,
     points: Vec<(usize, Point)>,
 }
@@ -94,7 +95,7 @@ pub(super) fn run(world: &World, way: &Way, frames: u32, bits: Bits) -> Result<(
         way: way.name,
         cells_per_frame: pictures.cells as f64 / count,
         galpixels_per_frame: pictures.galpixels as f64 / count,
-        psnr_db: pictures.report.psnr_db / count,
+        psnr_db: metric::pooled_db(&pictures.decibels),
         flip: pictures.report.flip / count,
         objects_px: mean(places.apart[0]),
         background_px: mean(places.apart[1]),
@@ -328,7 +329,7 @@ impl Sums {
         }
         let truth = scene::render(world.scene, f64::from(frame));
         let psnr = metric::psnr_db(&picture, &truth, None).unwrap_or(0.0);
-        self.report.psnr_db += psnr;
+        self.decibels.push(psnr);
         self.report.worst_psnr_db = self.report.worst_psnr_db.min(psnr);
         self.report.flip += metric::flip(&picture, &truth, None).unwrap_or(0.0);
         self.picture = Some(picture);
