@@ -3,6 +3,7 @@
 mod budget;
 mod call;
 mod choices;
+mod ddoc;
 mod demo;
 mod error;
 mod fills;
@@ -68,6 +69,8 @@ enum Command {
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
     Fills(fills::Fills),
+    /// Depth images that look around edges: what a frame from beside them lacks, against plain depth images
+    Ddoc(ddoc::Ddoc),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -94,6 +97,7 @@ pub fn main() -> ExitCode {
         Command::Run(run) => run.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
+        Command::Ddoc(ddoc) => ddoc.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),

@@ -258,7 +258,7 @@ pub(super) fn shrink(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], s
         around(grid, owners, &splat, |from, owner| {
             let Some(other) = splats.get(owner.wrapping_sub(1) as usize) else { return };
             let [x, y] = [0, 1].map(|axis: usize| i32::from(splat.direction[axis]) * i32::from(other.direction[axis]));
-            if x + y < 0 && splat.covers(from, settings.asymmetry) {
+            if x + y < settings.conflict << direction::FRACTION_BITS && splat.covers(from, settings.asymmetry) {
                 radius = radius.min(splat.outside(from, settings.asymmetry));
             }
         });
@@ -268,6 +268,41 @@ pub(super) fn shrink(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], s
                 splat.radius = radius;
             }
         }
+    }
+}
+
+/// Makes splats smaller that are larger than one beside them by more than the distance between the two: once in their order
+/// and once against it, as a chamfer distance transform does it.
+pub(super) fn even_out(grid: &Grid<'_>, owners: &[u32], splats: &mut [Splat]) {
+    for number in 0..splats.len() {
+        even_out_one(grid, owners, splats, number, BEFORE);
+    }
+    for number in (0..splats.len()).rev() {
+        even_out_one(grid, owners, splats, number, BEFORE.map(|[x, y]| [-x, -y]));
+    }
+}
+
+/// The neighbours that come before a cell, row by row.
+const BEFORE: [[i32; 2]; 4] = [[-1, -1], [0, -1], [1, -1], [-1, 0]];
+
+/// The distance of diagonal neighbours.
+const DIAGONAL: u32 = 362;
+
+/// Compares a splat with those in four of the cells around its centre. The centre of a splat is always its own.
+fn even_out_one(grid: &Grid<'_>, owners: &[u32], splats: &mut [Splat], number: usize, beside: [[i32; 2]; 4]) {
+    let Some(&Splat { cell, mut radius, .. }) = splats.get(number) else { return };
+    for [x, y] in beside {
+        let owner = at(grid, owners, i32::from(cell[0]) + x, i32::from(cell[1]) + y);
+        let Some(other) = splats.get(owner.unwrap_or(0).wrapping_sub(1) as usize) else { continue };
+        // The cell may be covered by a splat from elsewhere.
+        let is_centre = i32::from(other.cell[0]) == i32::from(cell[0]) + x && i32::from(other.cell[1]) == i32::from(cell[1]) + y;
+        let apart = if x == 0 || y == 0 { ONE as u32 } else { DIAGONAL };
+        if is_centre {
+            radius = radius.min(other.radius + apart);
+        }
+    }
+    if let Some(splat) = splats.get_mut(number) {
+        splat.radius = radius;
     }
 }
 
