@@ -10,9 +10,7 @@ fn main() {
     let mut settings = request.settings();
     settings.window = var("WINDOW", settings.window as f64) as u32;
     settings.conflict = (var("COS", 0.0) * 16384.0) as i32;
-    settings.even = var("EVEN", 1.0) > 0.0;
-    let step = var("STEP", 1.0 / 64.0) as f32;
-    settings.threshold = (step * (1u32 << 24) as f32) as u32;
+    let step = var("STEP", request.joints()[0].step as f64) as f32;
     let plain = reference::plain(&world, &View::reference(size));
     let ddoc = reference::ddoc(&world, size, &settings).unwrap();
     let joints = request.joints();
@@ -21,5 +19,17 @@ fn main() {
     let all = missing::count(&world, size, &[(&plain, a), (&ddoc.image, b)]);
     let sum = |f: &dyn Fn(&missing::Missing) -> u32| all.iter().map(f).sum::<u32>() as f64;
     let (p, d, sp, sd) = (sum(&|m| m.missing[0]), sum(&|m| m.missing[1]), sum(&|m| m.strict[0]), sum(&|m| m.strict[1]));
-    println!("{} {size} D {} a {} half {} near {:.2} tri {}: {p} {d} {:.3}  strict {sp} {sd} {:.3}  {:?} {:?}", args[1], args[3], args[4], world.half_side, world.near, world.triangles.len(), d / p, sd / sp, ddoc.seconds, ddoc.tally);
+    println!(
+        "{} {size} D {} a {} half {} near {:.2} tri {}: {p} {d} {:.3}  strict {sp} {sd} {:.3}  {:?} {:?}",
+        args[1],
+        args[3],
+        args[4],
+        world.half_side,
+        world.near,
+        world.triangles.len(),
+        d / p,
+        sd / sp,
+        ddoc.seconds,
+        ddoc.tally
+    );
 }

@@ -60,7 +60,8 @@ impl Ddoc {
             [] => ddoc::defaults().to_vec(),
             names => names.iter().map(String::as_str).collect(),
         };
-        let worlds = names.iter().map(|name| ddoc::open(name)).collect::<Result<Vec<_>, _>>().map_err(CliError::unusable)?;
+        let worlds =
+            names.iter().map(|name| ddoc::open(name)).collect::<Result<Vec<_>, _>>().map_err(CliError::unusable)?;
         let out = match (&self.out, self.json) {
             (Some(out), _) => Some(out.clone()),
             (None, true) => None,
@@ -73,7 +74,8 @@ impl Ddoc {
             print(&report::head())?;
         }
         let sources = Vec::with_capacity(worlds.len());
-        let mut document = Document { version: env!("CARGO_PKG_VERSION"), command: command(), machine: machine(), sources };
+        let mut document =
+            Document { version: env!("CARGO_PKG_VERSION"), command: command(), machine: machine(), sources };
         let mut all = Vec::with_capacity(worlds.len());
         for world in &worlds {
             let (source, pictures) = ddoc::study(world, &request).map_err(CliError::unusable)?;

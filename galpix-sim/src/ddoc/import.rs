@@ -50,13 +50,18 @@ pub fn is_object(name: &str) -> bool {
 /// is no finite number, or a face with a corner that is not there.
 pub fn obj(file: &Path) -> Result<World, ImportError> {
     let error = |what: String, mend: &'static str| ImportError { file: file.to_path_buf(), what, mend };
-    let opened = File::open(file).map_err(|io| error(format!("it cannot be opened ({io})"), "give the path of an OBJ file"))?;
-    let about = opened.metadata().map_err(|io| error(format!("it cannot be read ({io})"), "give the path of an OBJ file"))?;
+    let opened =
+        File::open(file).map_err(|io| error(format!("it cannot be opened ({io})"), "give the path of an OBJ file"))?;
+    let about =
+        opened.metadata().map_err(|io| error(format!("it cannot be read ({io})"), "give the path of an OBJ file"))?;
     if !about.is_file() {
         return Err(error("it is no file".to_owned(), "give the path of an OBJ file"));
     }
     if about.len() > MOST_BYTES {
-        return Err(error(format!("it has {} bytes, and {MOST_BYTES} are possible", about.len()), "give a simpler object"));
+        return Err(error(
+            format!("it has {} bytes, and {MOST_BYTES} are possible", about.len()),
+            "give a simpler object",
+        ));
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..tobj::LoadOptions::default() };
@@ -69,7 +74,10 @@ pub fn obj(file: &Path) -> Result<World, ImportError> {
     let materials = materials.unwrap_or_default();
     let count = models.iter().map(|model| model.mesh.indices.len() / 3).sum::<usize>();
     if count > MOST_TRIANGLES {
-        return Err(error(format!("it has {count} triangles, and {MOST_TRIANGLES} are possible"), "give a simpler object"));
+        return Err(error(
+            format!("it has {count} triangles, and {MOST_TRIANGLES} are possible"),
+            "give a simpler object",
+        ));
     }
     let mut triangles: Vec<[(Place, Colour); 3]> = Vec::with_capacity(count);
     for mesh in models.iter().map(|model| &model.mesh) {
@@ -78,7 +86,8 @@ pub fn obj(file: &Path) -> Result<World, ImportError> {
         let corner = |index: u32| {
             let at = index as usize * 3;
             let place = mesh.positions.get(at..at + 3)?;
-            let colour = mesh.vertex_color.get(at..at + 3).filter(|colour| colour.iter().all(|channel| channel.is_finite()));
+            let colour =
+                mesh.vertex_color.get(at..at + 3).filter(|colour| colour.iter().all(|channel| channel.is_finite()));
             let colour = colour.map_or(base, |colour| [colour[0], colour[1], colour[2]]);
             Some(([place[0], place[1], place[2]].map(f64::from), colour.map(|channel| 255.0 * channel.clamp(0.0, 1.0))))
         };
@@ -132,10 +141,10 @@ fn on_stage(file: &Path, triangles: &[[(Place, Colour); 3]]) -> Option<World> {
         let facing = if normal[0] * a[0] + normal[1] * a[1] + normal[2] * a[2] > 0.0 { -1.0 } else { 1.0 } / length;
         let light = 0.45 + 0.6 * (facing * (-0.5 * normal[0] - 0.6 * normal[1] - 0.62 * normal[2])).max(0.0);
         let shaded = |colour: Colour| colour.map(|channel| (channel * light as f32).min(255.0));
-        world.add([(a, triangle[0].1), (b, triangle[1].1), (c, triangle[2].1)].map(|(place, colour)| Corner {
-            place,
-            colour: shaded(colour),
-        }));
+        world.add(
+            [(a, triangle[0].1), (b, triangle[1].1), (c, triangle[2].1)]
+                .map(|(place, colour)| Corner { place, colour: shaded(colour) }),
+        );
     }
     any.then(|| world.with_near())
 }

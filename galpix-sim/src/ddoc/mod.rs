@@ -39,7 +39,8 @@ use crate::scene;
 /// The sides of reference images that are possible, pixels.
 pub const SIZES: std::ops::RangeInclusive<usize> = 64..=2048;
 
-/// The step of inverse distance, as a part of its range, from which on there is an edge, and the mesh is cut.
+/// The mesh of samples is cut where the inverse distance changes by this part of its range over a 512th of the image: a pixel of an
+/// image of 512.
 pub const STEP: f32 = 1.0 / 64.0;
 
 /// How an image is taken.
@@ -73,7 +74,8 @@ impl Request {
     /// direction of neighbouring splats differs by a little, which moves what is far from the edge by some pixels more.
     #[must_use]
     pub fn joints(&self) -> [Joint; 2] {
-        [1.5, 2.0 * self.asymmetry as f32 + 4.0].map(|reach| Joint { step: STEP, reach })
+        let step = STEP * 512.0 / self.size as f32;
+        [1.5, 2.0 * self.asymmetry as f32 + 4.0].map(|reach| Joint { step, reach })
     }
 }
 

@@ -21,7 +21,8 @@ pub fn html(document: &Document, pictures: &[Pictures]) -> String {
         ("Command".to_owned(), document.command.clone()),
         ("Machine".to_owned(), document.machine.clone()),
     ];
-    let sections: String = document.sources.iter().zip(pictures).map(|(source, pictures)| section(source, pictures)).collect();
+    let sections: String =
+        document.sources.iter().zip(pictures).map(|(source, pictures)| section(source, pictures)).collect();
     let main = [READING.to_owned(), table(document), sections].concat();
     report::document("galpix: what is hidden behind edges", &intro, &facts, &main, "")
 }

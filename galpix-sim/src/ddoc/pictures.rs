@@ -6,6 +6,7 @@ use super::reference::{self, Ddoc, Reference};
 use super::view::View;
 use super::warp::{Joint, warp};
 use super::world::World;
+use crate::film::magnified;
 use crate::picture::Picture;
 
 /// Columns and rows of the magnified part of a frame.
@@ -32,7 +33,7 @@ impl Pictures {
         let (left, top) = most_missing(&masks[0], view.width, view.height);
         let part = |picture: &Picture| {
             let (width, height) = (PART.min(picture.width), PART.min(picture.height));
-            magnified(&picture.crop(left, top, width, height))
+            magnified(&picture.crop(left, top, width, height), TIMES)
         };
         let parts = [&plain_frame, &ddoc_frame, &picture(&truth)].map(part);
         let [plain_part, ddoc_part, truth_part] = parts;
@@ -96,15 +97,9 @@ fn most_missing(missing: &[bool], width: usize, height: usize) -> (usize, usize)
     let places = |size: usize| (0..=size.saturating_sub(PART)).step_by(4);
     let count = |&(left, top): &(usize, usize)| {
         let rows = top..height.min(top + PART);
-        rows.map(|y| missing[y * width + left..y * width + width.min(left + PART)].iter().filter(|&&is| is).count()).sum()
+        rows.map(|y| missing[y * width + left..y * width + width.min(left + PART)].iter().filter(|&&is| is).count())
+            .sum()
     };
     let corners = places(height).flat_map(|top| places(width).map(move |left| (left, top)));
     corners.max_by_key(|corner| -> usize { count(corner) }).unwrap_or((0, 0))
-}
-
-/// The picture with each pixel as a square.
-fn magnified(picture: &Picture) -> Picture {
-    let (width, height) = (picture.width * TIMES, picture.height * TIMES);
-    let pixels = (0..width * height).map(|at| picture.at(at % width / TIMES, at / width / TIMES)).collect();
-    Picture { width, height, pixels }
 }

@@ -122,7 +122,18 @@ impl SourceReport {
 pub fn head() -> String {
     format!(
         "{:<12}{:>10}{:>8}{:>8}{:>7}{:>9}{:>8}{:>7}{:>10}{:>8}{:>8}{:>9}",
-        "world", "triangles", "plain", "DDOC", "ratio", "strict:", "DDOC", "ratio", "samples", "splats", "shrunk", "seconds"
+        "world",
+        "triangles",
+        "plain",
+        "DDOC",
+        "ratio",
+        "strict:",
+        "DDOC",
+        "ratio",
+        "samples",
+        "splats",
+        "shrunk",
+        "seconds"
     )
 }
 
@@ -150,11 +161,7 @@ pub fn row(report: &SourceReport) -> String {
         mean(report.strict_ddoc),
         percent(report.strict_ratio)
     );
-    let _ = write!(
-        line,
-        "{:>10}{:>8}{:>8}{:>9.2}",
-        report.samples, report.splats, report.shrunk, report.seconds.total
-    );
+    let _ = write!(line, "{:>10}{:>8}{:>8}{:>9.2}", report.samples, report.splats, report.shrunk, report.seconds.total);
     line
 }
 

@@ -87,7 +87,10 @@ fn portal() -> World {
     const SPRING: f64 = -0.35;
     let stone = |x: f64, y: f64, light: f64| {
         let (brick, own) = bricks(x * 40.0, y * 40.0, 22.0, 11.0, 3);
-        let ashlar = gradient([hex(0xc8a878), hex(0xdcc096), hex(0xeed8b4)], 0.6 * own + 0.4 * noise(x * 40.0, y * 40.0, 12.0, 5));
+        let ashlar = gradient(
+            [hex(0xc8a878), hex(0xdcc096), hex(0xeed8b4)],
+            0.6 * own + 0.4 * noise(x * 40.0, y * 40.0, 12.0, 5),
+        );
         lit(mix(lit(ashlar, 0.7), ashlar, brick), light)
     };
     // The arch's own contour: up the left side, around, down the right side.
@@ -110,7 +113,9 @@ fn portal() -> World {
         for z in [FRONT, BACK] {
             let light = if z == FRONT { 1.0 } else { 0.6 };
             // Above the opening, and the piers on both sides of it.
-            let top = move |x: f64| if open && x.abs() < HALF { SPRING - (HALF * HALF - x * x).max(0.0).sqrt() } else { FLOOR };
+            let top = move |x: f64| {
+                if open && x.abs() < HALF { SPRING - (HALF * HALF - x * x).max(0.0).sqrt() } else { FLOOR }
+            };
             for (from, to) in [(-0.5 * SPACING, -HALF), (-HALF, HALF), (HALF, 0.5 * SPACING)] {
                 // At the sides of the opening the arch's end counts, not the pier's.
                 let inner = 1e-9;
@@ -135,7 +140,10 @@ fn portal() -> World {
         let velvet = [0xb03a3a, 0x8c2c48, 0xc05a34][row as usize % 3];
         let cloth = move |x: f64, share: f64| {
             let seat = stripes(x * 30.0, 15.0, 13.0);
-            lit(mix(hex(0x3c2420), hex(velvet), seat), (1.1 - 0.3 * share) * (0.9 + 0.2 * noise(x * 30.0, share * 8.0, 5.0, 6)))
+            lit(
+                mix(hex(0x3c2420), hex(velvet), seat),
+                (1.1 - 0.3 * share) * (0.9 + 0.2 * noise(x * 30.0, share * 8.0, 5.0, 6)),
+            )
         };
         let half = 5.2;
         // The back of a row's seats, and their tops.
