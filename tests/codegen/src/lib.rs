@@ -1,6 +1,7 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
 //! `proof_*` must reach no panic, no multiplication, no division and no float, but for `proof_inpaint_*` and `proof_submit_*`, which may multiply;
+//! `distorted_*` must reach no panic;
 //! `planted_*` each reach one of them on purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
 //! settings come from outside.
 
@@ -186,6 +187,32 @@ proofs! {
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
         proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
         proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4;
+}
+
+mod distorted {
+    //! The distortion map of the DDOC: it multiplies and divides, and reaches no panic.
+
+    use galpix_core::ddoc::splat::Splat;
+    use galpix_core::ddoc::{DistortionMap, Settings, Tally};
+    use galpix_core::grid::Grid;
+
+    /// The map from depths.
+    #[unsafe(no_mangle)]
+    pub fn distorted_map(
+        grid: &Grid<'_>,
+        depths: &[u32],
+        settings: &Settings,
+        owners: &mut [u32],
+        splats: &mut [Splat],
+    ) -> Tally {
+        DistortionMap::new(*grid, depths, settings, owners, splats).map(|(_, tally)| tally).unwrap_or_default()
+    }
+
+    /// One place.
+    #[unsafe(no_mangle)]
+    pub fn distorted_place(map: &DistortionMap<'_>, place: &[i32; 2], depth: u32, to: &mut [i32; 2]) {
+        *to = map.displaced(*place, depth);
+    }
 }
 
 mod planted {

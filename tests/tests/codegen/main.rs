@@ -7,7 +7,7 @@
 //! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame, one with constant work, scan-out with and without an overlay, and the replacing of objects, for each layout there, with
 //! a budget fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide, float or
 //! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. Of push-pull the same, but that
-//! it multiplies, by an instruction and not by a helper. **Not
+//! it multiplies, by an instruction and not by a helper. Of the distortion map only that no panic can be reached. **Not
 //! proved:** the same for other layouts, for setting up a map, for budgets chosen at run time, or with overflow checks on.
 //!
 //! The `planted_*` symbols each do one of these things and must be found.
@@ -108,6 +108,24 @@ fn codegen_is_clean_on_armv6m() {
 #[test]
 fn codegen_is_clean_on_rv32imac() {
     passes_are_clean(RISCV);
+}
+
+#[test]
+fn codegen_of_the_distortion_map_reaches_no_panic() {
+    for (target, machine) in [THUMB, RISCV] {
+        for profile in PROFILES {
+            let Some(library) = build(target, profile) else { continue };
+            let entries = library.entries("distorted_");
+            assert_eq!(entries, ["distorted_map", "distorted_place"]);
+            for entry in entries {
+                let verdict = judged(machine, &library, &entry);
+                assert!(verdict.instructions > 10, "{entry} is a stub of {} instructions", verdict.instructions);
+                let panics = |finding: &&verdict::Finding| matches!(finding.fault, Fault::Panic | Fault::Unknown);
+                let found: Vec<String> = verdict.findings.iter().filter(panics).map(ToString::to_string).collect();
+                assert!(found.is_empty(), "{target} {profile}: {}", found.join("\n"));
+            }
+        }
+    }
 }
 
 #[test]
