@@ -51,7 +51,8 @@ pub(super) fn take<L: Layout, B: Budget<L>>(
     }
 }
 
-/// Undoes [`take`].
+/// Undoes [`take`], but for what was made up in the base to fill a hole: where a layer has covered it, it is dropped. It would be stale when
+/// the cell opens again, and is then filled anew.
 pub(super) fn leave<L: Layout, B: Budget<L>>(
     base: &mut Galpixmap<'_, L, B>,
     layer: &mut Galpixmap<'_, L, B>,
@@ -65,8 +66,24 @@ pub(super) fn leave<L: Layout, B: Budget<L>>(
             for (lane, seated) in seated.iter_mut().enumerate() {
                 *seated = (seats >> lane & 1).wrapping_neg();
             }
-            exchange(base, layer, index * RUN..cells.min(index * RUN + RUN), &seated);
+            let run = index * RUN..cells.min(index * RUN + RUN);
+            exchange(base, layer, run.clone(), &seated);
+            drop_debris(base, run, &seated);
         }
+    }
+}
+
+/// Empties the cells of a run that hold no galpixel, where the mask has ones.
+#[inline(always)]
+fn drop_debris<L: Layout, B: Budget<L>>(base: &mut Galpixmap<'_, L, B>, run: Range<usize>, masks: &[u32; RUN]) {
+    let class = base.record().class();
+    let (word, _) = class.words();
+    // Galpixel is the class without a bit, empty the one with all its bits.
+    let all = (Class::Empty as u32) << class.shift;
+    let Some(words) = base.planes_mut().get_mut(word).and_then(|plane| plane.get_mut(run)) else { return };
+    for (word, mask) in words.iter_mut().zip(masks) {
+        let debris = below(0, *word & all) & mask;
+        *word |= debris & all;
     }
 }
 
