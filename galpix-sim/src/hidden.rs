@@ -5,6 +5,7 @@
 //! ```
 
 mod cull;
+mod surfaces;
 
 use galpix_core::galpixel::Chosen;
 use galpix_core::layers::Displacement;
@@ -50,8 +51,8 @@ pub enum Kind {
 pub enum Arrangement {
     /// The one that is seen. What is behind is in a layer of its own.
     Nearer,
-    /// The one behind, where there is one. What covers something is in a layer of its own: it takes nothing away of what it passes in
-    /// front of, and its bullet holes are closed before anything shines through.
+    /// The one behind, where there is one. A surface that covers something, and leaves some of it, is in a layer of its own: it takes nothing
+    /// away of what it passes in front of, and its bullet holes are closed before anything shines through.
     #[default]
     Farther,
 }
@@ -201,24 +202,33 @@ impl Layer {
     }
 }
 
-/// What a source has behind its first layer, or all that it has if that is unlimited; `None` if it has nothing of this kind.
+/// Whether a source knows anything of this kind.
+#[must_use]
+pub fn has(source: &Source, kind: Kind) -> bool {
+    match (source, kind) {
+        (Source::Scene(_), _) | (_, Kind::None) => true,
+        (Source::Capture(capture), Kind::Second { .. }) => capture.hidden.is_some(),
+        (Source::Capture(_), Kind::Ddoc { .. } | Kind::Unlimited) => false,
+    }
+}
+
+/// What a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing of this kind.
 ///
 /// *Errors:* a scene that is too large for a map.
-pub fn offered(source: &Source, kind: Kind) -> Result<Option<Vec<Layer>>, EngineError> {
+fn offered(source: &Source, kind: Kind) -> Result<Vec<Layer>, EngineError> {
     let layers = match (kind, source) {
         (Kind::None, _) => Vec::new(),
         (Kind::Second { separation }, Source::Scene(scene)) => {
             scene::behind(*scene, 0.0, &Peel { layers: 1, separation, backs: true })
         }
         (Kind::Unlimited, Source::Scene(scene)) => scene::each(*scene, 0.0),
-        (Kind::Second { separation }, Source::Capture(capture)) => match &capture.hidden {
-            Some(second) => vec![apart(&capture.update, second, separation)],
-            None => return Ok(None),
-        },
-        (Kind::Ddoc { radius }, Source::Scene(scene)) => return Ok(Some(vec![around_edges(*scene, radius)?])),
-        (Kind::Ddoc { .. } | Kind::Unlimited, Source::Capture(_)) => return Ok(None),
+        (Kind::Second { separation }, Source::Capture(capture)) => {
+            capture.hidden.iter().map(|second| apart(&capture.update, second, separation)).collect()
+        }
+        (Kind::Ddoc { radius }, Source::Scene(scene)) => return Ok(vec![around_edges(*scene, radius)?]),
+        (Kind::Ddoc { .. } | Kind::Unlimited, Source::Capture(_)) => Vec::new(),
     };
-    Ok(Some(layers.into_iter().map(Layer::Moving).collect()))
+    Ok(layers.into_iter().map(Layer::Moving).collect())
 }
 
 /// What a DDOC has of a scene that the plain picture does not show.
@@ -249,8 +259,8 @@ fn apart(first: &Update, second: &Update, separation: f64) -> Update {
     Update { samples: first.samples.iter().zip(&second.samples).map(keep).collect(), ..second.clone() }
 }
 
-/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget; `None` if it has nothing of this
-/// kind.
+/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget: the first layer alone if it has
+/// nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn carry<L: Layout>(
@@ -259,13 +269,13 @@ pub fn carry<L: Layout>(
     way: Way,
     budget: Chosen<L>,
     frames: u32,
-) -> Result<Option<Carried>, EngineError> {
-    let Some(layers) = offered(source, way.kind)? else { return Ok(None) };
+) -> Result<Carried, EngineError> {
+    let layers = offered(source, way.kind)?;
     let culling = if way.culled && !layers.is_empty() { Some(culling(update, budget, frames)?) } else { None };
-    Ok(Some(match way.kind {
-        Kind::Unlimited => unlimited(update, layers, culling),
+    Ok(match way.kind {
+        Kind::Unlimited if !layers.is_empty() => unlimited(update, layers, culling),
         _ => arranged(update, layers, way.arrangement, culling),
-    }))
+    })
 }
 
 /// A first layer and what is behind it, put into layers.
@@ -280,8 +290,9 @@ fn arranged(update: &Update, mut layers: Vec<Layer>, arrangement: Arrangement, c
     let mut hidden = vec![false; base.samples.len()];
     hidden.resize(base.samples.len() * (1 + layers.len()), true);
     if let (Arrangement::Farther, Some(Layer::Moving(second))) = (arrangement, layers.first_mut()) {
+        let leaves: Vec<bool> = second.samples.iter().map(|sample| sample.known == Known::Motion).collect();
         let (of_base, of_layer) = hidden.split_at_mut(covering.len());
-        for (cell, _) in covering.iter().enumerate().filter(|&(_, &covering)| covering) {
+        for cell in surfaces::that_leave(update, &covering, &leaves) {
             std::mem::swap(&mut base.samples[cell], &mut second.samples[cell]);
             std::mem::swap(&mut of_base[cell], &mut of_layer[cell]);
         }

@@ -69,12 +69,7 @@ pub enum Study {
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn study(source: &Source, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, ExperimentError> {
-    let mut ways = Vec::new();
-    for &way in &plan.ways {
-        if hidden::offered(source, way.kind)?.is_some() {
-            ways.push(way);
-        }
-    }
+    let ways: Vec<Way> = plan.ways.iter().copied().filter(|way| hidden::has(source, way.kind)).collect();
     if ways.iter().all(|way| way.kind == Kind::None) {
         return Ok(Study::NothingHidden);
     }
