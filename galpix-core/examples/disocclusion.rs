@@ -43,10 +43,10 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
             (record.bytes() * cells, reach, map(front, &mut vec![0; cells], &reach))
         };
         println!(
-            "{group}: {} edges, {:.2} % of the cells are covered, {} are cut off",
+            "{group}: {} edges, {:.2} % of the cells are covered, {} without end",
             tally.edges,
             100.0 * f64::from(tally.covered) / cells as f64,
-            tally.cut
+            tally.endless
         );
         let mut put = |what: &str, mut run: Box<dyn FnMut(&mut Maps<L, Static<P>>)>| {
             let maps = Rc::clone(&maps);

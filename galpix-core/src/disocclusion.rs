@@ -14,7 +14,7 @@
 //!
 //! **Claim.** For two surfaces, each of which moves as a whole, that lie at least [`Reach::separation`] apart: a sample that is hidden behind the near one,
 //! moves like the far one, and is where no galpixel of the map is after any of the frames, was hidden in a cell whose extents are not 0. This holds with
-//! every rounding and with velocities that saturate, as long as no extent is cut off at 255 cells.
+//! every rounding and with velocities that saturate.
 //!
 //! **Memory:** four bytes a cell. **Cost:** some vector operations a cell and some hundred operations a pair that is looked at; additions and
 //! shifts.
@@ -81,8 +81,8 @@ impl Reach {
 pub struct Tally {
     /// Pairs of neighbours, or of a cell and what lies beyond the border, of which one leaves.
     pub edges: u32,
-    /// Of these, how many uncover more than 255 cells to a side, and were cut off there.
-    pub cut: u32,
+    /// Of these, how many uncover [`Extents::NO_END`] cells to a side, or more.
+    pub endless: u32,
     /// Cells whose hidden samples may be uncovered; 0 before they are spread.
     pub covered: u32,
 }

@@ -5,7 +5,7 @@
 
 use core::ops::Range;
 
-use super::extents::{Extents, ONLY_ITSELF, larger};
+use super::extents::{EXTENTS, ONLY_ITSELF, larger};
 use super::pair::{Body, FARTHEST, Rule, Uncovered};
 use super::{Border, Reach, Tally};
 use crate::galpixel::{Budget, Class};
@@ -170,10 +170,9 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     fn pairs_in_row(&mut self, flags: &[u32; RUN], row: u32, columns: Range<u32>, here: &mut [u32]) {
         for x in flagged(flags, columns) {
             let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
-            if let Some(uncovered) = self.uncovered::<0>(&one, &other) {
-                self.raise(here, x, uncovered.first);
-                self.raise(here, x + 1, uncovered.second);
-            }
+            let uncovered = self.uncovered::<0>(&one, &other);
+            self.raise(here, x, uncovered.first);
+            self.raise(here, x + 1, uncovered.second);
         }
     }
 
@@ -189,10 +188,9 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let [row, below] = rows;
         for x in flagged(flags, columns) {
             let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
-            if let Some(uncovered) = self.uncovered::<1>(&one, &other) {
-                self.raise(here, x, uncovered.first);
-                self.raise(next, x, uncovered.second);
-            }
+            let uncovered = self.uncovered::<1>(&one, &other);
+            self.raise(here, x, uncovered.first);
+            self.raise(next, x, uncovered.second);
         }
     }
 
@@ -212,22 +210,25 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     fn beside_nothing<const ALONG: usize>(&mut self, row: u32, x: u32, before: bool, here: &mut [u32]) {
         let body = Body::read(self.front, row + x);
         let [one, other] = if before { [Body::NOTHING, body] } else { [body, Body::NOTHING] };
-        if let Some(uncovered) = self.uncovered::<ALONG>(&one, &other) {
-            self.raise(here, x, if before { uncovered.second } else { uncovered.first });
-        }
+        let uncovered = self.uncovered::<ALONG>(&one, &other);
+        self.raise(here, x, if before { uncovered.second } else { uncovered.first });
     }
 
     /// What two neighbours uncover, counted.
-    fn uncovered<const ALONG: usize>(&mut self, one: &Body, other: &Body) -> Option<Uncovered> {
-        let uncovered = self.rule.uncovered::<ALONG>(one, other)?;
-        self.tally.edges += 1;
-        self.tally.cut += u32::from(uncovered.cut);
-        Some(uncovered)
+    fn uncovered<const ALONG: usize>(&mut self, one: &Body, other: &Body) -> Uncovered {
+        if one == other {
+            return Uncovered::default();
+        }
+        let uncovered = self.rule.uncovered::<ALONG>(one, other);
+        self.tally.edges += u32::from(uncovered.opens);
+        self.tally.endless += u32::from(uncovered.endless);
+        uncovered
     }
 
-    fn raise(&self, row: &mut [u32], x: u32, to: Extents) {
+    fn raise(&self, row: &mut [u32], x: u32, to: u32) {
         if let Some(word) = row.get_mut(x as usize) {
-            *word = larger(*word, to.word() & self.marked);
+            let to = to & self.marked;
+            *word = larger(*word, to) | to & !EXTENTS;
         }
     }
 }

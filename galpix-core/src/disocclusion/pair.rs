@@ -1,7 +1,7 @@
 //! Which of two neighbours leaves the other, and what it uncovers.
 
 use super::Reach;
-use super::extents::Extents;
+use super::extents::{DOWNWARDS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, shut};
 use super::reach::{Bound, Motion};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -44,15 +44,17 @@ impl Body {
     }
 }
 
-/// What two neighbours uncover.
+/// What two neighbours uncover, and where one shuts the other off, as words of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(crate) struct Uncovered {
     /// By the left or upper one, in itself and behind it.
-    pub first: Extents,
+    pub first: u32,
     /// By the right or lower one.
-    pub second: Extents,
-    /// Whether an extent was cut off at 255.
-    pub cut: bool,
+    pub second: u32,
+    /// Whether anything is uncovered.
+    pub opens: bool,
+    /// Whether an extent has no end.
+    pub endless: bool,
 }
 
 /// The rule for all pairs of a map.
@@ -71,28 +73,36 @@ impl Rule {
         Self { bounds: [bound(x, 0), bound(y, 1)], separation: reach.separation.min(WIDEST_SEPARATION) as i32 }
     }
 
-    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower), or nothing if none of
-    /// them leaves.
+    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower).
     #[inline(never)]
-    pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Option<Uncovered> {
+    pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Uncovered {
         let ([x, y], [first_x, first_y], [second_x, second_y]) = (&self.bounds, first.motion, second.motion);
         let (along, across) = if ALONG == 0 { (x, y) } else { (y, x) };
         let (first_along, first_across) = if ALONG == 0 { (first_x, first_y) } else { (first_y, first_x) };
         let (second_along, second_across) = if ALONG == 0 { (second_x, second_y) } else { (second_y, second_x) };
-        let gap = along.cells(second_along, first_along);
-        if gap == 0 {
-            return None;
-        }
         let farther = second.key.wrapping_sub(first.key);
         let one_surface = farther < self.separation && farther > -self.separation;
-        if one_surface && !along.parts(second_along, first_along) {
-            return None;
+        let mut uncovered = Uncovered::default();
+        // What the nearer one uncovers is behind itself: it is not handed on to the farther one that it moves over.
+        if !one_surface && farther != 0 && along.parts(first_along, second_along) {
+            let (onwards, backwards) = if ALONG == 0 {
+                (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
+            } else {
+                (shut::<DOWNWARDS>(), shut::<UPWARDS>())
+            };
+            if farther > 0 { uncovered.second = onwards } else { uncovered.first = backwards }
         }
+        let gap = along.cells(second_along, first_along);
+        if gap == 0 || one_surface && !along.parts(second_along, first_along) {
+            return uncovered;
+        }
+        uncovered.opens = true;
         // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
         let onwards = across.cells(second_across, first_across) + 1;
         let backwards = across.cells(first_across, second_across) + 1;
-        let cut = gap > 255 || onwards > 255 || backwards > 255;
-        let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(255) as u8);
+        const NO_END: u32 = Extents::NO_END as u32;
+        uncovered.endless = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
+        let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(NO_END) as u8);
         let (one, other) = if ALONG == 0 {
             (
                 Extents { left: gap, right: 1, above: onwards, below: backwards },
@@ -106,8 +116,12 @@ impl Rule {
         };
         // The nearer one leaves; two of one surface, or as near, both.
         let both = one_surface || farther == 0;
-        let first = if both || farther > 0 { one } else { Extents::default() };
-        let second = if both || farther < 0 { other } else { Extents::default() };
-        Some(Uncovered { first, second, cut })
+        if both || farther > 0 {
+            uncovered.first |= one.word();
+        }
+        if both || farther < 0 {
+            uncovered.second |= other.word();
+        }
+        uncovered
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! Four scans, one after the other: along each row to the right, to the left; down each column, up each column. In a scan a cell hands on its
 //! extents, the one that moves with the scan shorter by one, and the next cell takes the larger of these and its own; the
-//! order is that of the memory, and nothing is needed beside the map itself.
+//! order is that of the memory, and nothing is needed beside the map itself. A cell that is shut on the way of a scan takes nothing.
 
-use super::extents::{DOWNWARDS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, larger};
+use super::extents::{DOWNWARDS, EXTENTS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, shorter, taken};
 use crate::grid::Grid;
 
 /// Cells that are passed by at once where nothing is uncovered.
@@ -38,8 +38,7 @@ fn any(block: &[u32]) -> u32 {
 #[inline(always)]
 fn rightwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
     for word in block {
-        *word = larger(*word, handed);
-        handed = handed_on::<TO_THE_RIGHT>(*word) & carried;
+        handed = along_by_one::<TO_THE_RIGHT>(word, handed) & carried;
     }
     handed
 }
@@ -47,10 +46,22 @@ fn rightwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
 #[inline(always)]
 fn leftwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
     for word in block.iter_mut().rev() {
-        *word = larger(*word, handed);
-        handed = handed_on::<TO_THE_LEFT>(*word) & carried;
+        handed = along_by_one::<TO_THE_LEFT>(word, handed) & carried;
     }
     handed
+}
+
+/// A cell takes what it is handed; what it hands on.
+#[inline(always)]
+fn along_by_one<const WAY: u32>(word: &mut u32, handed: u32) -> u32 {
+    // Most cells have nothing of their own.
+    if *word == 0 {
+        *word = handed;
+        shorter::<WAY>(handed)
+    } else {
+        *word = taken::<WAY>(*word, handed);
+        handed_on::<WAY>(*word)
+    }
 }
 
 /// A row takes what the one before it on the way `WAY` hands on.
@@ -68,7 +79,7 @@ pub(crate) fn across<const WAY: u32>(from: &[u32], to: &mut [u32]) {
 #[inline(always)]
 fn take<const WAY: u32>(from: &[u32], to: &mut [u32]) {
     for (&from, to) in from.iter().zip(to) {
-        *to = larger(*to, handed_on::<WAY>(from));
+        *to = taken::<WAY>(*to, handed_on::<WAY>(from));
     }
 }
 
@@ -89,7 +100,7 @@ pub(crate) fn downwards(extents: &mut [u32], start: u32, width: u32) {
     }
 }
 
-/// All rows from the last up take what the one below them hands on; returns how many cells are covered then.
+/// All rows from the last up take what the one below them hands on, and are open again; returns how many cells are covered then.
 pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
     let width = grid.width();
     let mut covered = 0;
@@ -97,8 +108,10 @@ pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
         if let Some((row, below)) = rows(extents, start, width) {
             across::<UPWARDS>(below, row);
         }
-        let row = extents.get(start as usize..(start + width) as usize).unwrap_or_default();
-        covered += row.iter().map(|&word| u32::from(word != 0)).sum::<u32>();
+        for word in extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default() {
+            *word &= EXTENTS;
+            covered += u32::from(*word != 0);
+        }
     }
     covered
 }
