@@ -9,7 +9,7 @@ use crate::layout::Layout;
 use crate::record::Record;
 
 /// The key of what nothing is behind: empty cells, and what lies beyond the border.
-pub(crate) const FARTHEST: i32 = i32::MAX;
+const FARTHEST: i32 = i32::MAX;
 
 /// The largest separation: even the last key is nearer than [`FARTHEST`] by as much.
 pub(crate) const WIDEST_SEPARATION: u32 = 1 << 30;
@@ -63,6 +63,8 @@ pub(crate) struct Rule {
     /// In x and y.
     pub bounds: [Bound; 2],
     pub separation: i32,
+    /// Whether what is uncovered ends where its surface does.
+    pub ends: bool,
 }
 
 impl Rule {
@@ -70,7 +72,11 @@ impl Rule {
         let frames = reach.frames.min(Reach::MOST_FRAMES);
         let [x, y, _] = &record.scales;
         let bound = |scale, component| Bound::new(scale, record.acceleration(component).present(), frames);
-        Self { bounds: [bound(x, 0), bound(y, 1)], separation: reach.separation.min(WIDEST_SEPARATION) as i32 }
+        Self {
+            bounds: [bound(x, 0), bound(y, 1)],
+            separation: reach.separation.min(WIDEST_SEPARATION) as i32,
+            ends: !reach.through,
+        }
     }
 
     /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower).
@@ -83,8 +89,15 @@ impl Rule {
         let farther = second.key.wrapping_sub(first.key);
         let one_surface = farther < self.separation && farther > -self.separation;
         let mut uncovered = Uncovered::default();
-        // What the nearer one uncovers is behind itself: it is not handed on to the farther one that it moves over.
-        if !one_surface && farther != 0 && along.parts(first_along, second_along) {
+        let ahead = along.between(second_along, first_along);
+        let aside = across.between(second_across, first_across);
+        let [behind, back] = [ahead.reversed(), aside.reversed()];
+        // What the nearer one uncovers is behind itself: it is not handed on to a farther one that moves apart from it.
+        let two_surfaces = !one_surface && farther != 0;
+        if self.ends
+            && two_surfaces
+            && (along.parts(&behind) || along.parts(&ahead) || across.parts(&aside) || across.parts(&back))
+        {
             let (onwards, backwards) = if ALONG == 0 {
                 (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
             } else {
@@ -92,14 +105,13 @@ impl Rule {
             };
             if farther > 0 { uncovered.second = onwards } else { uncovered.first = backwards }
         }
-        let gap = along.cells(second_along, first_along);
-        if gap == 0 || one_surface && !along.parts(second_along, first_along) {
+        let gap = along.cells(&ahead);
+        if gap == 0 || one_surface && !along.parts(&ahead) {
             return uncovered;
         }
         uncovered.opens = true;
         // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
-        let onwards = across.cells(second_across, first_across) + 1;
-        let backwards = across.cells(first_across, second_across) + 1;
+        let (onwards, backwards) = (across.cells(&aside) + 1, across.cells(&back) + 1);
         const NO_END: u32 = Extents::NO_END as u32;
         uncovered.endless = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
         let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(NO_END) as u8);

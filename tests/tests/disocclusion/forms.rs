@@ -126,13 +126,16 @@ impl Reference<'_> {
         let key = |body: Body| body.map_or(i64::from(i32::MAX), |(key, _)| key);
         let farther = key(second) - key(first);
         let one_surface = farther.abs() < i64::from(self.reach.separation.min(1 << 30));
-        let parts = |one: Motion, other: Motion| {
-            self.reach.frames > 0
-                && self.ahead(along, one, other)[0] >= 2i128 << self.record.scales[along].velocity_frac
+        let parts = |component: usize, one: Motion, other: Motion| {
+            let [exactly, _] = self.ahead(component, one, other);
+            self.reach.frames > 0 && exactly >= 2i128 << self.record.scales[component].velocity_frac
         };
-        let closes = !one_surface && parts(one[along], other[along]);
+        let apart = [along, across].into_iter().any(|component| {
+            parts(component, one[component], other[component]) || parts(component, other[component], one[component])
+        });
+        let closes = !self.reach.through && !one_surface && apart;
         let shut = [closes && farther < 0, closes && farther > 0];
-        if gap == 0 || one_surface && !parts(other[along], one[along]) {
+        if gap == 0 || one_surface && !parts(along, other[along], one[along]) {
             return (None, shut);
         }
         let onwards = self.cells(across, other[across], one[across]) + 1;
@@ -250,7 +253,7 @@ fn check<L: Layout, P: Profile>(seed: u64) {
         let separation = [0, 1, 3, 1 << budget.record().depth().bits >> 6, u32::MAX][generator.random_range(0..5)];
         let frames = [0, 1, 2, 3, 16, 60, 255, 300][generator.random_range(0..8)];
         let border = if generator.random() { Border::Still } else { Border::Continues };
-        let reach = Reach { frames, separation, border };
+        let reach = Reach { frames, separation, border, through: generator.random() };
         let content = content(budget.record(), shape, number);
         with_maps(shape, budget, Some(&content), |front, _| {
             let grid = *front.grid();

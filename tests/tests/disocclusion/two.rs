@@ -107,7 +107,7 @@ fn check_scene<L: Layout>(scene: &Scene<L>, frames: u32, masks: impl Fn(u16) -> 
     with_grid(|grid| {
         for mask in (0..=u16::MAX).filter(|&mask| masks(mask)) {
             for border in [Border::Still, Border::Continues] {
-                let reach = Reach { frames, separation: 1, border };
+                let reach = Reach { frames, separation: 1, border, through: false };
                 let (covered, tally) = memory.covered(grid, scene.budget, words, mask, &reach);
                 let open = paths.iter().flatten().fold(0, |open, &now| open | uncovered(mask, now, border));
                 assert!(
