@@ -59,6 +59,13 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
                 black_box(sweep(&maps.front, &mut maps.back, &mut [], maps.settings.rounding, 1));
             }),
         );
+        put(
+            "sweep with winners",
+            Box::new(|maps| {
+                let winners = &mut *maps.scratch.winners;
+                black_box(sweep(&maps.front, &mut maps.back, winners, maps.settings.rounding, 1));
+            }),
+        );
         let mut extents = vec![0; cells];
         put(
             "disocclusion: mark",

@@ -112,17 +112,20 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let grid = *self.front.grid();
         let Some(row) = grid.row(y as i32) else { return };
         let below = grid.row(y as i32 + 1);
-        let mut flags = [0; RUN];
+        let (mut in_row, mut between) = ([0; RUN], [0; RUN]);
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(RUN as u32);
+            // All that the pairs are made of is in the cache after these.
+            if let Some(below) = below {
+                self.compare::<1>(row + x, below + x, &mut between);
+            }
             if IN_ROW {
-                self.compare::<0>(row + x, row + x + 1, &mut flags);
-                self.pairs_in_row(&flags, row, x..(x + cells).min(grid.width() - 1), here);
+                self.compare::<0>(row + x, row + x + 1, &mut in_row);
+                self.pairs_in_row(&in_row, row, x..(x + cells).min(grid.width() - 1), here);
             }
             if let Some(below) = below {
-                self.compare::<1>(row + x, below + x, &mut flags);
-                self.pairs_between(&flags, [row, below], x..x + cells, here, next);
+                self.pairs_between(&between, [row, below], x..x + cells, here, next);
             }
             x += cells;
         }
@@ -144,20 +147,23 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let (separation, [(v_limit, v_beyond), (a_limit, a_beyond)]) = (self.rule.separation, self.limits[ALONG]);
         let (v, a) = (record.velocity(ALONG).extract(), record.acceleration(ALONG).extract());
         let depth_bits = record.depth().bits;
+        // The sign is set where the difference is the separation or more.
+        let within = separation.wrapping_sub(1);
         for (lane, flag) in flags.iter_mut().enumerate() {
             let (key, other_key) = (one.key::<L, B>(record, lane), other.key::<L, B>(record, lane));
             let farther = other_key.wrapping_sub(key) as i32;
+            let apart = within.wrapping_sub(farther) | within.wrapping_add(farther);
             // Keys of empty cells say nothing.
-            *flag =
-                u32::from(farther >= separation) | u32::from(farther <= -separation) | (key ^ other_key) >> depth_bits;
+            let mut look = apart as u32 & 1 << 31 | (key ^ other_key) >> depth_bits;
             if L::LANES.velocity {
                 let [one, other] = [&one, &other].map(|lanes| v.signed(lanes.v[0][lane], lanes.v[1][lane]));
-                *flag |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
+                look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
             }
             if L::LANES.acceleration {
                 let [one, other] = [&one, &other].map(|lanes| a.signed(lanes.a[0][lane], lanes.a[1][lane]));
-                *flag |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
+                look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
             }
+            *flag = look;
         }
     }
 

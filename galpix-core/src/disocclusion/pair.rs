@@ -30,17 +30,24 @@ impl Body {
     /// What is in a cell.
     #[inline(always)]
     pub fn read<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        let (Some(words), Some(key)) = (front.words_at(cell), front.key_at(cell)) else { return Self::NOTHING };
-        let record = front.record();
-        if record.class().unsigned(&words) == Class::Empty as u32 {
+        let Some(key) = front.key_at(cell) else { return Self::NOTHING };
+        if front.class_of(key) == Class::Empty as u32 {
             return Self::NOTHING;
         }
-        let motion = |component: usize| Motion {
-            offset: record.offset(component).signed(&words),
-            velocity: record.velocity(component).signed(&words),
-            acceleration: record.acceleration(component).signed(&words) << record.scales[component].acceleration_up,
-        };
-        Self { key: key as i32, motion: [motion(0), motion(1)] }
+        // Words that hold nothing of this are not read: they would not be in the cache.
+        Self { key: key as i32, motion: [motion::<L, B, 0>(front, cell), motion::<L, B, 1>(front, cell)] }
+    }
+}
+
+/// The motion of what is in a cell along a component.
+#[inline(always)]
+fn motion<L: Layout, B: Budget<L>, const ALONG: usize>(front: &Galpixmap<'_, L, B>, cell: u32) -> Motion {
+    let record = front.record();
+    let acceleration = front.signed(record.acceleration(ALONG), cell);
+    Motion {
+        offset: front.signed(record.offset(ALONG), cell),
+        velocity: front.signed(record.velocity(ALONG), cell),
+        acceleration: acceleration << record.scales[ALONG].acceleration_up,
     }
 }
 

@@ -15,24 +15,35 @@ const BLOCK: usize = 16;
 pub(crate) fn along(row: &mut [u32], carried: u32) {
     let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
     let mut handed = 0;
+    let mut anything = any(rest);
     for block in &mut *blocks {
-        if handed | any(block) != 0 {
+        let own = any(block);
+        if handed | own & reaching::<TO_THE_RIGHT>() != 0 {
             handed = rightwards(block, handed, carried);
         }
+        anything |= own;
     }
     rightwards(rest, handed, carried);
+    if anything & reaching::<TO_THE_LEFT>() == 0 {
+        return;
+    }
     handed = leftwards(rest, 0, carried);
     for block in blocks.iter_mut().rev() {
-        if handed | any(block) != 0 {
+        if handed | any(block) & reaching::<TO_THE_LEFT>() != 0 {
             handed = leftwards(block, handed, carried);
         }
     }
 }
 
-/// Whether anything is uncovered in some cells.
+/// All bits that any of some cells has.
 #[inline(always)]
 fn any(block: &[u32]) -> u32 {
     block.iter().fold(0, |any, word| any | word)
+}
+
+/// Bits of which a cell has one if it hands on anything.
+const fn reaching<const WAY: u32>() -> u32 {
+    0x7e << WAY
 }
 
 #[inline(always)]
@@ -54,10 +65,12 @@ fn leftwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
 /// A cell takes what it is handed; what it hands on.
 #[inline(always)]
 fn along_by_one<const WAY: u32>(word: &mut u32, handed: u32) -> u32 {
-    // Most cells have nothing of their own.
+    // Most cells have nothing of their own, or are handed nothing.
     if *word == 0 {
         *word = handed;
         shorter::<WAY>(handed)
+    } else if handed == 0 {
+        handed_on::<WAY>(*word)
     } else {
         *word = taken::<WAY>(*word, handed);
         handed_on::<WAY>(*word)
@@ -69,7 +82,7 @@ pub(crate) fn across<const WAY: u32>(from: &[u32], to: &mut [u32]) {
     let (blocks, rest) = from.as_chunks::<BLOCK>();
     let (to_blocks, to_rest) = to.as_chunks_mut::<BLOCK>();
     for (from, to) in blocks.iter().zip(to_blocks) {
-        if any(from) != 0 {
+        if any(from) & reaching::<WAY>() != 0 {
             take::<WAY>(from, to);
         }
     }
@@ -108,10 +121,28 @@ pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
         if let Some((row, below)) = rows(extents, start, width) {
             across::<UPWARDS>(below, row);
         }
-        for word in extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default() {
-            *word &= EXTENTS;
-            covered += u32::from(*word != 0);
+        let row = extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default();
+        let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
+        for block in blocks {
+            let bits = any(block);
+            if bits & !EXTENTS != 0 {
+                covered += opened(block);
+            } else if bits != 0 {
+                covered += block.iter().map(|&word| u32::from(word != 0)).sum::<u32>();
+            }
         }
+        covered += opened(rest);
+    }
+    covered
+}
+
+/// Opens some cells; returns how many are covered.
+#[inline(always)]
+fn opened(block: &mut [u32]) -> u32 {
+    let mut covered = 0;
+    for word in block {
+        *word &= EXTENTS;
+        covered += u32::from(*word != 0);
     }
     covered
 }
