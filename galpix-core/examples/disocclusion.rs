@@ -43,10 +43,10 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
             (record.bytes() * cells, reach, map(front, &mut vec![0; cells], &reach))
         };
         println!(
-            "{group}: {} edges, {:.2} % of the cells are covered, {} are cut off",
+            "{group}: {} edges, {:.2} % of the cells are covered, {} without end",
             tally.edges,
             100.0 * f64::from(tally.covered) / cells as f64,
-            tally.cut
+            tally.endless
         );
         let mut put = |what: &str, mut run: Box<dyn FnMut(&mut Maps<L, Static<P>>)>| {
             let maps = Rc::clone(&maps);
@@ -57,6 +57,13 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
             SWEEP,
             Box::new(|maps| {
                 black_box(sweep(&maps.front, &mut maps.back, &mut [], maps.settings.rounding, 1));
+            }),
+        );
+        put(
+            "sweep with winners",
+            Box::new(|maps| {
+                let winners = &mut *maps.scratch.winners;
+                black_box(sweep(&maps.front, &mut maps.back, winners, maps.settings.rounding, 1));
             }),
         );
         let mut extents = vec![0; cells];

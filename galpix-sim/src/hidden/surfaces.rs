@@ -65,7 +65,7 @@ mod tests {
         };
         let samples = art.iter().flat_map(|row| row.chars().map(sample)).collect();
         let update =
-            Update { width: 4, height: 2, wings: Wings::default(), samples, depth_kind: DepthKind::Z };
+            Update { width: 4, height: 2, wings: Wings::default(), samples, depth_kind: DepthKind::Z, overlay: None };
         let covering = [true, true, true, false, true, true, true, false];
         let leaving = |cell: usize| {
             let leaves: Vec<bool> = (0..8).map(|other| other == cell).collect();

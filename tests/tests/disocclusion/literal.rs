@@ -33,7 +33,7 @@ fn printed_algorithms_miss_what_ours_cover() {
                 let open = uncovered(near, [velocity, [0, 0]], Border::Continues);
                 let cells = (0..CELLS).map(|cell| if near >> cell & 1 == 1 { (0, velocity) } else { (1, [0, 0]) });
                 let layer = Layer { width: SIDE, height: SIDE, cells: cells.collect() };
-                let reach = Reach { frames: 1, separation: 1, border: Border::Continues, tears: true };
+                let reach = Reach { frames: 1, separation: 1, border: Border::Continues, tears: true, through: false };
                 let (ours, _) = memory.covered(grid, budget, words, near, &reach);
                 let map = Galpixmap::<TinyDeepSlide, _>::over(grid, budget, &mut memory.map).unwrap();
                 mark(&map, &mut memory.extents, &reach);
