@@ -12,6 +12,7 @@ use galpix_core::galpixel::{Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::Pyramid;
+use galpix_core::layers::{Layers, LayersTally};
 use galpix_core::layout::{Flat565, Full, Shaded, Velocity565, VelocityGray4};
 use galpix_core::rolling::Rolling;
 use galpix_core::rounding::Rounding;
@@ -38,7 +39,7 @@ impl Profile for PanelVelocity {
 
 macro_rules! proofs {
     ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
-        $scan_out:ident, $inpaint:ident, $rolling:ident;)*) => {$(
+        $scan_out:ident, $inpaint:ident, $rolling:ident, $layers:ident;)*) => {$(
         /// Propagation and resolution.
         #[unsafe(no_mangle)]
         pub fn $sweep(
@@ -115,6 +116,17 @@ macro_rules! proofs {
             rolling.inpaint(settings, inpainting, pyramid)
         }
 
+        /// A frame of three layers, any of which but the base may be anchored, and what they showed before it.
+        #[unsafe(no_mangle)]
+        pub fn $layers(
+            layers: &mut Layers<'_, $layout, Static<$profile>, 2>,
+            settings: &Settings,
+            cell: u32,
+        ) -> (usize, LayersTally<2>) {
+            layers.resolve(settings.work);
+            (layers.layer_at(cell), layers.step(settings))
+        }
+
         /// A row for a display of 16-bit words.
         #[unsafe(no_mangle)]
         pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
@@ -127,18 +139,18 @@ macro_rules! proofs {
 
 proofs! {
     Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full,
-        proof_inpaint_full, proof_inpaint_rolling_full;
+        proof_inpaint_full, proof_inpaint_rolling_full, proof_layers_full;
     Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded,
-        proof_inpaint_shaded, proof_inpaint_rolling_shaded;
+        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_layers_shaded;
     Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
         proof_scan_out_flat565,
-        proof_inpaint_flat565, proof_inpaint_rolling_flat565;
+        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_layers_flat565;
     Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
         proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565,
-        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565;
+        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_layers_velocity565;
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
         proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
-        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4;
+        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_layers_velocity_gray4;
 }
 
 mod planted {
