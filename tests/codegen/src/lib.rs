@@ -14,7 +14,7 @@ use galpix_core::galpixel::{Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::Pyramid;
-use galpix_core::layers::Layers;
+use galpix_core::layers::{Layers, LayersTally};
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4};
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
@@ -43,7 +43,7 @@ impl Profile for PanelVelocity {
 
 macro_rules! proofs {
     ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
-        $scan_out:ident, $inpaint:ident, $rolling:ident, $overlay:ident, $disocclusion:ident, $cover:ident;)*) => {$(
+        $scan_out:ident, $inpaint:ident, $rolling:ident, $overlay:ident, $disocclusion:ident, $cover:ident, $layers:ident;)*) => {$(
         /// Propagation and resolution.
         #[unsafe(no_mangle)]
         pub fn $sweep(
@@ -141,6 +141,17 @@ macro_rules! proofs {
             disocclusion::cover(front, line, mask, reach)
         }
 
+        /// A frame of three layers, any of which but the base may be anchored, and what they showed before it.
+        #[unsafe(no_mangle)]
+        pub fn $layers(
+            layers: &mut Layers<'_, $layout, Static<$profile>, 2>,
+            settings: &Settings,
+            cell: u32,
+        ) -> (usize, LayersTally<2>) {
+            layers.resolve(settings.work);
+            (layers.layer_at(cell), layers.step(settings))
+        }
+
         /// A row for a display of 16-bit words.
         #[unsafe(no_mangle)]
         pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
@@ -197,18 +208,18 @@ object_proofs! {
 
 proofs! {
     Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full,
-        proof_inpaint_full, proof_inpaint_rolling_full, proof_overlay_full, proof_disocclusion_full, proof_cover_full;
+        proof_inpaint_full, proof_inpaint_rolling_full, proof_overlay_full, proof_disocclusion_full, proof_cover_full, proof_layers_full;
     Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded,
-        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_overlay_shaded, proof_disocclusion_shaded, proof_cover_shaded;
+        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_overlay_shaded, proof_disocclusion_shaded, proof_cover_shaded, proof_layers_shaded;
     Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
         proof_scan_out_flat565,
-        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_overlay_flat565, proof_disocclusion_flat565, proof_cover_flat565;
+        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_overlay_flat565, proof_disocclusion_flat565, proof_cover_flat565, proof_layers_flat565;
     Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
         proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565,
-        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_overlay_velocity565, proof_disocclusion_velocity565, proof_cover_velocity565;
+        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_overlay_velocity565, proof_disocclusion_velocity565, proof_cover_velocity565, proof_layers_velocity565;
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
         proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
-        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4, proof_disocclusion_velocity_gray4, proof_cover_velocity_gray4;
+        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4, proof_disocclusion_velocity_gray4, proof_cover_velocity_gray4, proof_layers_velocity_gray4;
 }
 
 mod distorted {
