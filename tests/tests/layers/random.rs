@@ -2,6 +2,7 @@
 
 use galpix_core::galpixel::Class;
 use galpix_core::record::{Field, Record};
+use galpix_tests::lent::Shape;
 use galpix_tests::{packed, random};
 use rand::rngs::SmallRng;
 use rand::{Rng, RngExt};
@@ -15,12 +16,19 @@ pub enum Filling {
     Sparse,
     Dense,
     Full,
+    /// Blocks of a surface that drift apart, so that gaps between rows cross gaps between columns.
+    Apart,
     /// Any words at all.
     Rubbish,
 }
 
 impl Filling {
-    pub const ALL: [Self; 5] = [Self::Empty, Self::Sparse, Self::Dense, Self::Full, Self::Rubbish];
+    pub const ALL: [Self; 6] = [Self::Empty, Self::Sparse, Self::Dense, Self::Full, Self::Apart, Self::Rubbish];
+
+    /// One of them.
+    pub fn any(generator: &mut SmallRng) -> Self {
+        Self::ALL[random::below(generator, 6) as usize]
+    }
 }
 
 /// A galpixel of some class.
@@ -49,17 +57,33 @@ pub fn cell(generator: &mut SmallRng, record: &Record, class: Class) -> Cell {
     words
 }
 
+/// A galpixel of a surface; it goes as many cells as its block is from the corner.
+fn apart(generator: &mut SmallRng, record: &Record, block: [usize; 2]) -> Cell {
+    let mut words = vec![0; record.words()];
+    packed::set(record.colour(), &mut words, generator.next_u32().into());
+    packed::set(record.depth(), &mut words, 1 << record.depth().bits >> 1);
+    for (component, cells) in block.into_iter().enumerate() {
+        let frac = record.scales[component].velocity_frac;
+        packed::set(record.velocity(component), &mut words, (cells as i64) << frac);
+    }
+    words
+}
+
 /// A map. One class in long runs, so that there are surfaces.
-pub fn map(generator: &mut SmallRng, record: &Record, filling: Filling, cells: usize) -> Vec<Cell> {
+pub fn map(generator: &mut SmallRng, record: &Record, filling: Filling, shape: Shape) -> Vec<Cell> {
+    let (cells, columns) = (shape.cells() as usize, shape.columns() as usize);
     let share = match filling {
         Filling::Empty => 0,
         Filling::Sparse => 12,
         Filling::Dense => 85,
-        Filling::Full | Filling::Rubbish => 100,
+        Filling::Full | Filling::Apart | Filling::Rubbish => 100,
     };
     let together = generator.random_ratio(1, 2).then(|| cell(generator, record, Class::Galpixel));
     (0..cells)
-        .map(|_| {
+        .map(|index| {
+            if filling == Filling::Apart {
+                return apart(generator, record, [index % columns / 3, index / columns / 3]);
+            }
             let class = match random::below(generator, 24) {
                 0 => Class::Debris,
                 1 => Class::JustUnobscured,

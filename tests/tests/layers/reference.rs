@@ -127,15 +127,17 @@ fn write<L: Layout, B: Budget<L>, const HIDDEN: usize>(
 ) {
     let layer = below(generator, HIDDEN as u32 + 1) as usize;
     let cells = model.shape.cells() as usize;
-    let filling = Filling::ALL[below(generator, 5) as usize];
-    let update = chance::map(generator, model.budget.record(), filling, cells);
-    let taken: Vec<bool> = (0..cells).map(|_| generator.random_ratio(1, 3)).collect();
+    let filling = Filling::any(generator);
+    let update = chance::map(generator, model.budget.record(), filling, model.shape);
+    // Of an anchored layer at times a displacement alone.
+    let galpixels = !model.layers[layer].kind.anchored || generator.random_ratio(1, 2);
+    let taken: Vec<bool> = (0..cells).map(|_| galpixels && generator.random_ratio(1, 3)).collect();
     let columns = model.shape.columns();
     let own = &mut model.layers[layer];
     let to = if own.kind.anchored { &mut own.stored } else { &mut own.cells };
     with_maps::<L, B, _>(model.shape, model.budget, Some(&planes(&update)), |from, _| {
-        let map = layers.layer_mut(layer).expect("a layer");
         for cell in (0..cells).filter(|&cell| taken[cell]) {
+            let map = layers.layer_mut(layer).expect("a layer");
             let [x, y] = [cell as u32 % columns, cell as u32 / columns].map(|place| place as i32);
             let galpixel = from.load(x, y).expect("in the map");
             map.store(x, y, &galpixel).expect("in the map");
@@ -200,8 +202,8 @@ fn same_as_the_model<L: Layout, B: Budget<L>, const HIDDEN: usize>(budget: B, se
         .map(|layer| {
             let anchored = layer > 0 && generator.random_ratio(1, 3);
             let [winners, edges] = [0, 1].map(|_| generator.random_ratio(5, 6));
-            let filling = Filling::ALL[below(&mut generator, 5) as usize];
-            let content = chance::map(&mut generator, &record, filling, shape.cells() as usize);
+            let filling = Filling::any(&mut generator);
+            let content = chance::map(&mut generator, &record, filling, shape);
             (Kind { winners, edges: edges && !anchored, anchored }, content)
         })
         .collect();
@@ -288,7 +290,7 @@ fn a_base_alone_is_a_controller() {
         for work in Work::ALL {
             let settings = Settings { rung, work, reach: 2, ..Settings::for_depth(16) };
             let shape = SHAPES[2];
-            let content = chance::map(&mut generator(seed), &record, Filling::Dense, shape.cells() as usize);
+            let content = chance::map(&mut generator(seed), &record, Filling::Dense, shape);
             with_controller::<Full, _, _>(shape, budget, Some(&planes(&content)), |controller| {
                 with_layers::<Full, _, 0, _>(shape, budget, &[(kind, content.clone())], |layers| {
                     for _ in 0..FRAMES {
@@ -317,8 +319,8 @@ fn layers_are_the_same_in_both_modes_of_work() {
             let contents: Vec<(Kind, Vec<Cell>)> = (0..3)
                 .map(|layer| {
                     let kind = Kind { winners: true, edges: layer < 2, anchored: layer == 2 };
-                    let filling = Filling::ALL[below(&mut generator, 5) as usize];
-                    (kind, chance::map(&mut generator, budget.record(), filling, shape.cells() as usize))
+                    let filling = Filling::any(&mut generator);
+                    (kind, chance::map(&mut generator, budget.record(), filling, shape))
                 })
                 .collect();
             with_layers::<Shaded, _, 2, _>(shape, budget, &contents, |layers| {
