@@ -2,7 +2,7 @@
 //! logic. The files are described in `docs/vectors.md`.
 //!
 //! ```text
-//! choice, inpaint, layers (which cases) ─▶ maps (what is in them) ─▶ run, layered (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
+//! choice, inpaint, layers, objects (which cases) ─▶ maps (what is in them) ─▶ run, layered (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
 //! ```
 
 mod case;
@@ -12,6 +12,7 @@ mod inpaint;
 mod layered;
 mod layers;
 mod maps;
+mod objects;
 mod run;
 mod write;
 

@@ -409,8 +409,35 @@ def check_layers(case, where, differences):
     return Checked(len(case["frames"]), numbers), {name: words for name, words in arrays.items() if words}
 
 
+def check_objects(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    n = get_int(case, "frame", where)
+    arrays = {"front": get_words(case, "front", where, record.words * cells)}
+    galpixels = model.unpack_map(arrays["front"], record, cells)
+    numbers = 0
+    for number, entry in enumerate(get(case, "renderings", list, where), 1):
+        here = f"{where}, rendering {number}"
+        place, size = get_words(entry, "place", here, 2), get_words(entry, "size", here, 2)
+        if place[0] + size[0] > model.columns(engine.grid) or place[1] + size[1] > model.rows(engine.grid):
+            raise Broken(f"{here}: the rectangle is not within the map")
+        words = arrays[f"galpixels_{number}"] = get_words(entry, "galpixels", here, record.words * size[0] * size[1])
+        given = [model.unpack(words[at:at + record.words], record) for at in range(0, len(words), record.words)]
+        rendering = model.Rendering(get_int(entry, "tag", here), get_int(entry, "stamp", here), place, size, given)
+        galpixels, counts = model.enter_object(engine, galpixels, rendering, rounding, n)
+        expected = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
+        compare_map("map", expected, galpixels, engine, here, differences)
+        told = get(entry, "grafted", dict, here)
+        compare_numbers("count", [get_int(told, name, here) for name in model.GRAFTED],
+                        [counts[name] for name in model.GRAFTED], here, differences)
+        numbers += len(expected) + len(model.GRAFTED)
+    return Checked(0, numbers), arrays
+
+
 CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
-          "inpaint": check_inpaint, "layers": check_layers}
+          "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
@@ -419,6 +446,7 @@ COMPARED = {
     "frame": "records, maps, counts, hashes",
     "inpaint": "records, edges, maps before and after inpainting",
     "layers": "records, displacements, own and shown maps, layers shown, counts",
+    "objects": "records, maps, counts",
 }
 
 

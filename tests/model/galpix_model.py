@@ -1457,6 +1457,85 @@ def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
     return moved, (n + 1) % (1 << 32), numbers, all_counts
 
 
+# --- 18. Grafting an object ------------------------------------------------------------------------------------------
+
+Rendering = namedtuple("Rendering", "tag stamp place size galpixels")
+
+GRAFTED = ("removed", "put", "behind", "lost", "empty", "replaced", "saturated")
+
+
+def without_object(galpixels, tag, counts):
+    """Section 18, step 1."""
+    result = []
+    for galpixel in galpixels:
+        if galpixel["class"] == EMPTY:
+            reached["18 empty stays, whatever its tag"] += 1
+        elif galpixel["tag"] != tag:
+            reached["18 another tag stays"] += 1
+        else:
+            reached[f"18 class {galpixel['class']} of the tag is removed"] += 1
+            counts["removed"] += 1
+            galpixel = dict(empty_galpixel(), colour=galpixel["colour"])
+        result.append(galpixel)
+    return result
+
+
+def caught_up(engine, galpixel, cell, stamp, rounding, n):
+    """Section 18, step 2: (cell or None, galpixel, fields that saturated)."""
+    saturated = 0
+    while stamp != n and cell is not None:
+        reached["18 a missed step"] += 1
+        thresholds = thresholds_of(engine, rounding, stamp)
+        galpixel, right, down, fields = step_galpixel(engine, galpixel, thresholds)
+        saturated += fields
+        cell = target_cell(engine.grid, cell, right, down)
+        stamp = (stamp + 1) % (1 << 32)
+    return cell, galpixel, saturated
+
+
+def enter_object(engine, galpixels, rendering, rounding, n):
+    """Section 18: (map with the rendering, counts)."""
+    counts = dict.fromkeys(GRAFTED, 0)
+    result = without_object(galpixels, rendering.tag, counts)
+    arrivals = {}
+    for index, galpixel in enumerate(rendering.galpixels):
+        down, right = divmod(index, rendering.size[0])
+        if galpixel["class"] == EMPTY:
+            reached["18 nothing in a cell of the rectangle"] += 1
+            counts["empty"] += 1
+            continue
+        if galpixel["tag"] != rendering.tag:
+            reached["18 takes the rendering's tag"] += 1
+        start = (rendering.place[1] + down) * columns(engine.grid) + rendering.place[0] + right
+        cell, galpixel, fields = caught_up(engine, dict(galpixel, tag=rendering.tag), start, rendering.stamp, rounding, n)
+        counts["saturated"] += fields
+        if cell is None:
+            reached["18 lost on the way"] += 1
+            counts["lost"] += 1
+        else:
+            arrivals.setdefault(cell, []).append(galpixel)
+    for cell, there in arrivals.items():
+        before = result[cell]
+        known = before["class"] != EMPTY
+        # sorting is stable: the one that was there comes first, then the rectangle's order
+        everybody = sorted(([before] if known else []) + there, key=lambda g: (g["class"], g["depth"]))
+        counts["behind"] += len(there)
+        if known and everybody[0] is before:
+            same = [(g["class"], g["depth"]) == (before["class"], before["depth"]) for g in there]
+            reached["18 of equals the one that was there" if any(same) else "18 behind what was there"] += 1
+            continue
+        if len(there) > 1:
+            first, second = everybody[:2]
+            equal = (first["class"], first["depth"]) == (second["class"], second["depth"])
+            reached["18 of several equals the first" if equal else "18 of several the nearest"] += 1
+        reached["18 replaces what was there" if known else "18 into an empty cell"] += 1
+        counts["behind"] -= 1
+        counts["put"] += 1
+        counts["replaced"] += known
+        result[cell] = everybody[0]
+    return result, counts
+
+
 # --- The rules -------------------------------------------------------------------------------------------------------
 
 def rule_names():
@@ -1543,6 +1622,12 @@ def rule_names():
               "14 push: no sample, nothing", "14 push: no sample, stays", "14 push: mean, of itself most",
               "14 push: mean, halves", "14 push: mean, of the sample most", "14 hole takes colour and motion",
               "14 hole takes colour alone", "14 hole without a sample", "14 map of one cell"]
+    names += ["18 empty stays, whatever its tag", "18 another tag stays"]
+    names += [f"18 class {klass} of the tag is removed" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
+    names += ["18 a missed step", "18 nothing in a cell of the rectangle", "18 takes the rendering's tag",
+              "18 lost on the way", "18 of equals the one that was there", "18 behind what was there",
+              "18 of several equals the first", "18 of several the nearest", "18 replaces what was there",
+              "18 into an empty cell"]
     return names
 
 

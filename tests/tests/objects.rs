@@ -185,6 +185,24 @@ fn an_object_is_replaced_as_the_reference_says() {
     replaces_as_the_reference::<Shaded, _>(Chosen::new(Odd::BITS).unwrap(), 3);
 }
 
+/// It would turn round beyond the border: in the map it would have been lost there.
+#[test]
+fn who_has_left_on_the_way_does_not_come_back() {
+    with_maps::<Tagged, _, _>(SHAPE, Static::<Paper>::new(), None, |mut map, _| {
+        let [velocity, acceleration] = [-3.0, 3.0].map(|x| [number(x), number(0.0), number(0.0)]);
+        let count = map.record().words();
+        let words = map.stored(&Galpixel { velocity, acceleration, ..Galpixel::default() }).0;
+        let mut put = |x: u32, late: u32| {
+            let object = Object { tag: 1, layer: 0, stamp: 0, place: [x, 2], size: [1, 1] };
+            let tally = replace(&mut map, &object, words[..count].iter().copied(), Rounding::Nearest, late);
+            (tally.put, tally.lost)
+        };
+        // -1.5 cells in the first step, 1.5 back in the second.
+        assert_eq!([put(0, 0), put(0, 1), put(0, 2), put(0, 3)], [(1, 0), (0, 1), (0, 1), (0, 1)]);
+        assert_eq!([put(3, 1), put(3, 2)], [(1, 0); 2]);
+    });
+}
+
 const UPDATES: usize = 4;
 const LIMITS: Limits = Limits { cells_each: 20, cells: 31, age: 3 };
 

@@ -184,7 +184,7 @@ fn views_show_what_is_pinned_and_else_the_map() {
 #[test]
 fn what_is_removed_shows_the_map_again() {
     let shape = Shape::plain(6, 4);
-    with_both::<Full, Paper>(shape, [6, 4, 0, 0], Wings::NONE, |map, overlay| {
+    with_both::<Full, Paper>(shape, [6, 4, 0, 0], Wings::all(2), |map, overlay| {
         let before = words(map);
         assert_eq!(overlay.pinned(0, 0), Some(0), "pinned black");
         assert!(overlay.unpin(0, 0));

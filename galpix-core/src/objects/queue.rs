@@ -22,12 +22,27 @@ pub struct Limits {
     pub age: u32,
 }
 
-/// A rendering that waits.
+/// A rendering that waits. Its size is a power of two, so that the next one is found by a shift and not by a product.
 #[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
 struct Pending {
-    object: Object,
+    tag: u32,
+    layer: u32,
+    stamp: u32,
+    /// Within the map, whose sides are at most 2^15.
+    place: [u16; 2],
+    size: [u16; 2],
     cells: u32,
-    words: usize,
+    words: u32,
+}
+
+const _: () = assert!(size_of::<Pending>() == 32);
+
+impl Pending {
+    const fn object(&self) -> Object {
+        let Self { tag, layer, stamp, place: [x, y], size: [width, height], .. } = *self;
+        Object { tag, layer, stamp, place: [x as u32, y as u32], size: [width as u32, height as u32] }
+    }
 }
 
 /// At most `UPDATES` renderings that wait, first come, first served; their galpixels lie in a ring of lent memory.
@@ -132,7 +147,8 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
         if cells > self.left {
             return Err(Refusal::Memory { cells, left: self.left });
         }
-        Ok(Pending { object: *object, cells, words: need })
+        let [place, size] = [place, size].map(|[x, y]| [x as u16, y as u16]);
+        Ok(Pending { tag, layer, stamp, place, size, cells, words: need as u32 })
     }
 
     /// Replaces the objects whose renderings wait, first come, first served, at a frame boundary. No rendering is begun that
@@ -145,7 +161,7 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
         let (mut tally, mut handled) = (ObjectsTally::default(), 0u32);
         while let Some(&pending) = self.pending.front() {
             let begun = tally.renderings != 0;
-            let Pending { object, cells, words } = pending;
+            let (object, cells, words) = (pending.object(), pending.cells, pending.words as usize);
             if begun && handled.saturating_add(cells) > most {
                 break;
             }

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use galpix_link::panel::{Description, Lcd, Oled, Panel};
 
-use super::{CliError, print, print_json, printable};
+use super::{CliError, print, print_json, printable, say};
 use crate::capture::ImportOptions;
 use crate::experiment::Source;
 use crate::progress;
@@ -60,6 +60,12 @@ impl Send {
     pub fn run(&self) -> Result<(), CliError> {
         let unusable = |error: &dyn std::fmt::Display| CliError::Unusable(printable(&error.to_string()));
         let source = Source::open(&self.source, &ImportOptions::default()).map_err(CliError::unusable)?;
+        if source.update().overlay.is_some() {
+            say(&format!(
+                "{}: what is pinned over the picture is not sent, the line has no message for it",
+                printable(source.name())
+            ));
+        }
         let Self { updates, every, over_scene, .. } = *self;
         let request = Request { panel: self.panel.map(Description::from), updates, every, over_scene };
         // Before a file is made.

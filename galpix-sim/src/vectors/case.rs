@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::layered::Layers;
+use super::objects::Objects;
 
 /// Everything that was written, with the hash of every file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -25,7 +26,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame, inpaint or layers.
+    /// step, resolve, edge, fill, frame, inpaint, layers or objects.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -72,6 +73,8 @@ pub enum Content {
     Inpaint(Inpaint),
     /// Whole frames of several layers.
     Layers(Layers),
+    /// Objects that enter a map.
+    Objects(Objects),
 }
 
 impl Content {
@@ -86,6 +89,7 @@ impl Content {
             Self::Frame(_) => "frame",
             Self::Inpaint(_) => "inpaint",
             Self::Layers(_) => "layers",
+            Self::Objects(_) => "objects",
         }
     }
 }

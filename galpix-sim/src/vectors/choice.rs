@@ -13,7 +13,7 @@ use galpix_core::rounding::Rounding;
 use super::case::{Case, Content, GridSize};
 use super::maps::{Picture, Random};
 use super::run::{self, Model, Plan, RunError};
-use super::{inpaint, layers};
+use super::{inpaint, layers, objects};
 
 /// Frames of a frame case.
 const FRAMES: u32 = 5;
@@ -134,6 +134,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     }
     cases.extend(inpaint::cases(seed, &models()?)?);
     cases.extend(layers::cases(seed, &models()?)?);
+    cases.extend(objects::cases(seed)?);
     Ok(cases)
 }
 

@@ -93,6 +93,7 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
             ("map", inpaint.map.clone()),
         ]),
         Content::Layers(layers) => layers.arrays(),
+        Content::Objects(objects) => objects.arrays(),
         Content::Frame(frames) => {
             let first = ("front".to_owned(), frames.front.clone());
             let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));

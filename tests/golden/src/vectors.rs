@@ -15,6 +15,8 @@ mod layered;
 mod layers;
 #[path = "../../../galpix-sim/src/vectors/maps.rs"]
 mod maps;
+#[path = "../../../galpix-sim/src/vectors/objects.rs"]
+mod objects;
 #[path = "../../../galpix-sim/src/vectors/run.rs"]
 mod run;
 
