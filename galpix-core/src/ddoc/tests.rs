@@ -36,7 +36,7 @@ fn settings(radius: u32) -> Settings {
     Settings { radius, ..Settings::for_depth(20) }
 }
 
-/// The paper's own algorithm without what it leaves to chance: no conflicts, radii as they are.
+/// Nothing conflicts: all radii stay as they are.
 fn without_conflicts(radius: u32) -> Settings {
     Settings { conflict: i32::MIN, ..settings(radius) }
 }
