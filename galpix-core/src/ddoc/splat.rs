@@ -100,20 +100,20 @@ impl Splat {
     /// Whether the splat covers the cell that is `x` and `y` away from its centre.
     #[inline(always)]
     #[must_use]
-    fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
+    pub(super) fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
         let reach = if self.is_visible([x, y]) { self.room(asymmetry) } else { self.radius };
         (x * x + y * y) as u32 <= reach * reach >> (2 * FRACTION_BITS)
     }
 
     /// Whether the cell that is `x` and `y` away from the centre is on the visible side.
     #[inline(always)]
-    const fn is_visible(&self, [x, y]: [i32; 2]) -> bool {
+    pub(super) const fn is_visible(&self, [x, y]: [i32; 2]) -> bool {
         x * self.direction[0] as i32 + y * self.direction[1] as i32 > 0
     }
 
     /// The largest radius with which the cell that is `x` and `y` away is not covered.
     #[inline(always)]
-    fn outside(&self, [x, y]: [i32; 2], asymmetry: u32) -> u32 {
+    pub(super) fn outside(&self, [x, y]: [i32; 2], asymmetry: u32) -> u32 {
         // The largest root whose square is below that of the distance.
         let square = (((x * x + y * y) as u32) << (2 * FRACTION_BITS)).saturating_sub(1);
         let reach = root::floor(square);
