@@ -5,9 +5,10 @@
 //! layer, that holds both. Where it moves what is a *distortion map*, made from the depths of the plain image, and any
 //! place of the scene is projected by one look-up in it (equation 1).
 //!
-//! 1. [`splat`]: which cells are on an edge, which way the edge faces, and which cells it is to distort (steps 2 to 5)
-//! 2. [`direction`]: the normal of a line through cells, by least squares
-//! 3. [`splat::Splat::full`] and [`splat::Splat::share`]: how far (step 6 and equation 1)
+//! 1. [`edges`]: which cells are on an edge, and which way it faces (step 2)
+//! 2. [`direction`]: the normal of a line through cells, by least squares (step 3)
+//! 3. [`splat`]: which cells each of them is to distort (steps 3 to 5)
+//! 4. [`splat::Splat::full`] and [`splat::Splat::share`]: how far (step 6 and equation 1)
 //!
 //! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/ddoc.md` tells how the paper was read.
 //!
@@ -39,6 +40,7 @@
 //! ```
 
 pub mod direction;
+pub mod edges;
 pub mod splat;
 
 #[cfg(test)]
@@ -179,7 +181,7 @@ impl<'m> DistortionMap<'m> {
         };
         let settings = settings.clamped();
         let mut tally = Tally::default();
-        let splats = splat::gather(&grid, depths, &settings, owners, splats, &mut tally);
+        let splats = edges::gather(&grid, depths, &settings, owners, splats, &mut tally);
         splat::cast(&grid, &settings, owners, splats);
         splat::shrink(&grid, &settings, owners, splats, &mut tally);
         splat::delete_orphans(&grid, &settings, owners, splats, &mut tally);

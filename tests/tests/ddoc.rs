@@ -7,15 +7,15 @@ use galpix_sim::ddoc::warp::warp;
 use galpix_sim::ddoc::{Request, distortion, open, reference, study};
 use galpix_sim::scene;
 
-/// Figure 9 of the paper at a small size: of what the frames of the depth image lack, those of the DDOC image lack a small part.
+/// Figure 9 of the paper: what the frames of the DDOC image lack is 7 to 13 % of what those of the depth image lack.
 #[test]
 fn frames_of_the_ddoc_image_lack_a_small_part_of_what_is_missing() {
-    for (name, most) in [("pillars", 0.13), ("sphere", 0.13), ("near-plane", 0.13), ("portal", 0.2), ("knot", 0.2)] {
-        let (report, _) = study(&open(name).unwrap(), &Request::new(192)).unwrap();
+    for name in ["pillars", "sphere", "crossing"] {
+        let (report, _) = study(&open(name).unwrap(), &Request::new(512)).unwrap();
         println!("{name}: {} of {} ({:.3})", report.missing_ddoc, report.missing_plain, report.ratio.unwrap());
-        assert!(report.missing_plain > 26 * 10, "{name}: nothing is hidden");
-        assert!(report.ratio.unwrap() < most, "{name}: {} of {}", report.missing_ddoc, report.missing_plain);
-        assert!(report.strict_ddoc < report.strict_plain, "{name}");
+        assert!(report.missing_plain > 26 * 100, "{name}: nothing is hidden");
+        assert!(report.ratio.unwrap() < 0.13, "{name}: {} of {}", report.missing_ddoc, report.missing_plain);
+        assert!(report.strict_ratio.unwrap() < 0.4, "{name}: {} of {}", report.strict_ddoc, report.strict_plain);
     }
 }
 
@@ -31,7 +31,7 @@ fn what_the_reference_view_sees_is_kept() {
         let frame = warp(&ddoc.image, &view, &request.joints()[1]);
         let lost = mask(&truth, &frame, TOLERANCE).iter().filter(|&&is| is).count();
         println!("{name}: {lost} of {}", truth.nearness.len());
-        assert!(lost * 500 < truth.nearness.len(), "{name}: {lost} of what is visible is lost");
+        assert!(lost * 200 < truth.nearness.len(), "{name}: {lost} of what is visible is lost");
     }
 }
 

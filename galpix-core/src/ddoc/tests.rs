@@ -36,7 +36,7 @@ fn settings(radius: u32) -> Settings {
     Settings { radius, ..Settings::for_depth(20) }
 }
 
-/// The paper's own algorithm without what it leaves to chance: no conflicts, radii as they are.
+/// Nothing conflicts: all radii stay as they are.
 fn without_conflicts(radius: u32) -> Settings {
     Settings { conflict: i32::MIN, ..settings(radius) }
 }
@@ -177,6 +177,9 @@ fn two_edges_back_to_back_share_what_is_between_them() {
         // No splat reaches what is another's.
         for splat in &made.splats {
             assert!(splat.radius as i32 <= (width / 2 + 1) * ONE, "{width}: {splat:?}");
+            // Neither edge bends the other's line, not even where the picture ends.
+            let out = if splat.cell[0] == 20 { -(1 << 14) } else { 1 << 14 };
+            assert_eq!(splat.direction, [out, 0], "{width}: {splat:?}");
         }
     }
 }
@@ -198,6 +201,36 @@ fn a_conflict_puts_the_closest_cell_just_outside() {
     for splat in &wider.splats {
         let closest = if splat.cell[0] == 19 { 6 } else { 5 };
         assert_eq!(splat.room(32), closest * ONE as u32 - 1, "{splat:?}");
+    }
+}
+
+#[test]
+fn right_angles_conflict() {
+    // Far is what lies right of column 19 and below row 19; both edges run from the corner between them.
+    let corner = |x: i32, y: i32| if x > 19 && y > 19 { FAR } else { NEAR };
+    let radii = |conflict: i32| {
+        let made = made(64, &Settings { conflict, ..settings(12) }, corner);
+        [[19, 27], [27, 19], [19, 60]].map(|cell| made.splats.iter().find(|splat| splat.cell == cell).unwrap().radius)
+    };
+    let [left, top, away] = radii(0);
+    assert!(left < 12 << 8 && top < 12 << 8, "{left}, {top}");
+    assert_eq!(away, 12 << 8);
+    assert_eq!(radii(-200), [12 << 8; 3]);
+}
+
+#[test]
+fn a_splat_shrinks_no_more_than_it_must() {
+    for asymmetry in [16, 17, 32, 50, 255] {
+        for y in -40i32..=40 {
+            for x in (-40i32..=40).filter(|&x| x != 0 || y != 0) {
+                let radius = splat(40).outside([x, y], asymmetry);
+                let covers = |radius: u32| Splat { radius, ..splat(40) }.covers([x, y], asymmetry);
+                // On the visible side a large asymmetry needs more than a splat can have.
+                if radius < 255 << 8 {
+                    assert!(!covers(radius) && covers(radius + 1), "{x}, {y}, {asymmetry}: {radius}");
+                }
+            }
+        }
     }
 }
 

@@ -114,7 +114,7 @@ fn on_stage(file: &Path, triangles: &[[(Place, Colour); 3]]) -> Option<World> {
     };
     let (low, high) = (bound(f64::min, f64::MAX), bound(f64::max, f64::MIN));
     let side = (0..3).map(|axis| high[axis] - low[axis]).fold(0.0, f64::max);
-    if !(side > 0.0) {
+    if side <= 0.0 {
         return None;
     }
     let scale = SIDE / side;
@@ -133,7 +133,7 @@ fn on_stage(file: &Path, triangles: &[[(Place, Colour); 3]]) -> Option<World> {
         let (ab, ac) = ([0, 1, 2].map(|i| b[i] - a[i]), [0, 1, 2].map(|i| c[i] - a[i]));
         let normal = [ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]];
         let length = normal.iter().map(|component| component * component).sum::<f64>().sqrt();
-        if !(length > 0.0) {
+        if length == 0.0 {
             continue;
         }
         any = true;
