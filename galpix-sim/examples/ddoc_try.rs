@@ -5,11 +5,19 @@ fn main() {
     let radius: u32 = args[3].parse().unwrap();
     let asym: f64 = args[4].parse().unwrap();
     let mut world = World::of_scene(galpix_sim::scene::find(&args[1]).unwrap());
-    if let Some(half) = args.get(5) { world.half_side = half.parse().unwrap(); }
+    if let Some(half) = args.get(5) {
+        world.half_side = half.parse().unwrap();
+    }
     let step: f32 = args.get(6).map_or(1.0 / 64.0, |s| s.parse().unwrap());
     let window: u32 = args.get(7).map_or(3, |s| s.parse().unwrap());
     println!("{} triangles near {}", world.triangles.len(), world.near);
-    let settings = galpix_core::ddoc::Settings { radius, asymmetry: (16.0 * asym) as u32, window, threshold: (step * (1u32 << 24) as f32) as u32, ..distortion::settings() };
+    let settings = galpix_core::ddoc::Settings {
+        radius,
+        asymmetry: (16.0 * asym) as u32,
+        window,
+        threshold: (step * (1u32 << 24) as f32) as u32,
+        ..distortion::settings()
+    };
     let plain = reference::plain(&world, &View::reference(size));
     let ddoc = reference::ddoc(&world, size, &settings).unwrap();
     println!("{:?} {:?}", ddoc.tally, ddoc.seconds);
@@ -19,10 +27,19 @@ fn main() {
         let all = missing::count(&world, size, &[(&plain, a), (&ddoc.image, b)], near);
         let sum = |i: usize| all.iter().map(|m| m.missing[i]).sum::<u32>();
         let truth: u32 = all.iter().map(|m| m.truth).sum();
-        println!("near {near}: truth {truth} plain {} ddoc {} ratio {:.3}", sum(0), sum(1), f64::from(sum(1)) / f64::from(sum(0)));
+        println!(
+            "near {near}: truth {truth} plain {} ddoc {} ratio {:.3}",
+            sum(0),
+            sum(1),
+            f64::from(sum(1)) / f64::from(sum(0))
+        );
     }
     let save = |r: &reference::Reference, name: &str| {
-        let p = galpix_sim::picture::Picture { width: size, height: size, pixels: r.raster.carried.iter().map(|c| [c[0] as u8, c[1] as u8, c[2] as u8]).collect() };
+        let p = galpix_sim::picture::Picture {
+            width: size,
+            height: size,
+            pixels: r.raster.carried.iter().map(|c| [c[0] as u8, c[1] as u8, c[2] as u8]).collect(),
+        };
         p.write_png(std::path::Path::new(name)).unwrap();
     };
     save(&plain, "/tmp/ddoc-plain.png");
@@ -32,7 +49,16 @@ fn main() {
     for (r, j, name) in [(&plain, a, "plain"), (&ddoc.image, b, "ddoc")] {
         let f = galpix_sim::ddoc::warp::warp(r, &view, &j);
         let m = missing::mask(&truth.raster, &f, 1);
-        let p = galpix_sim::picture::Picture { width: f.width, height: f.height, pixels: f.carried.iter().zip(&m).map(|(c, &m)| if m { [255, 0, 255] } else { [c[0] as u8, c[1] as u8, c[2] as u8] }).collect() };
+        let p = galpix_sim::picture::Picture {
+            width: f.width,
+            height: f.height,
+            pixels: f
+                .carried
+                .iter()
+                .zip(&m)
+                .map(|(c, &m)| if m { [255, 0, 255] } else { [c[0] as u8, c[1] as u8, c[2] as u8] })
+                .collect(),
+        };
         p.write_png(std::path::Path::new(&format!("/tmp/ddoc-frame-{name}.png"))).unwrap();
     }
 }

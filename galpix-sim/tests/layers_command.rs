@@ -59,7 +59,9 @@ fn json_is_one_document_and_nothing_is_written() {
     let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
     assert_eq!(document["separation"], 0.25);
     let hidden = &document["sources"][0]["ways"][1]["hidden"];
-    assert!(hidden["offered"].as_u64() >= hidden["kept"].as_u64() && hidden["kept"].as_u64() >= hidden["used"].as_u64());
+    assert!(
+        hidden["offered"].as_u64() >= hidden["kept"].as_u64() && hidden["kept"].as_u64() >= hidden["used"].as_u64()
+    );
 }
 
 /// Without `--hidden` a run says what it said before there were layers.

@@ -125,7 +125,8 @@ fn what_cannot_be_layered_is_refused() {
     let other = scene::update(scene::find("fovea").unwrap(), 0.0);
     let bits = Bits::derive(experiment::demand(&update, 6, &Request::default())).unwrap();
     let engine = Engine::<Full>::new(bits, Settings::for_depth(16)).unwrap();
-    let refused = |beside: &[Beside<'_>]| engine.run_layers(&update, beside, 1, |_| panic!("nothing is shown")).unwrap_err();
+    let refused =
+        |beside: &[Beside<'_>]| engine.run_layers(&update, beside, 1, |_| panic!("nothing is shown")).unwrap_err();
     let size = refused(&[Beside::Moving(&update), Beside::Moving(&other)]);
     assert!(matches!(size, EngineError::LayerSize { width: 256, height: 192, of: [192, 144] }), "{size}");
     let count = refused(&vec![Beside::Moving(&update); MAX_BESIDE + 1]);

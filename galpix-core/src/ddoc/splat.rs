@@ -251,7 +251,13 @@ pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], spl
 }
 
 /// Step 4: shrinks splats until no cell that they cover is another's with a direction more than 90 degrees off.
-pub(super) fn shrink(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], splats: &mut [Splat], tally: &mut Tally) {
+pub(super) fn shrink(
+    grid: &Grid<'_>,
+    settings: &Settings,
+    owners: &mut [u32],
+    splats: &mut [Splat],
+    tally: &mut Tally,
+) {
     for number in 0..splats.len() {
         let Some(&splat) = splats.get(number) else { return };
         let mut radius = splat.radius;

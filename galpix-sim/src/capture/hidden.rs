@@ -125,11 +125,7 @@ fn read_view(view: &View, folder: &Path, size: Size) -> Result<(Picture, Vec<Dis
 }
 
 /// The pixels of a view, and the places half way between those of one surface: place, distance, colour.
-fn lattice(
-    colours: &Picture,
-    distances: &[Distance],
-    size: Size,
-) -> impl Iterator<Item = ([f64; 2], f64, [u8; 3])> {
+fn lattice(colours: &Picture, distances: &[Distance], size: Size) -> impl Iterator<Item = ([f64; 2], f64, [u8; 3])> {
     let corner = move |x: usize, y: usize| {
         let cell = y * size.width + x;
         match distances[cell] {

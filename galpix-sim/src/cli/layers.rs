@@ -71,7 +71,9 @@ impl LayersArguments {
                     document.nothing_disoccluded.push(source.name().to_owned());
                 }
                 Study::NothingHidden => {
-                    say(&format!("{name}: nothing is known behind its first layer; a capture says it in [update.hidden]"));
+                    say(&format!(
+                        "{name}: nothing is known behind its first layer; a capture says it in [update.hidden]"
+                    ));
                     document.nothing_hidden.push(source.name().to_owned());
                 }
                 Study::Compared(report) => {

@@ -42,7 +42,8 @@ pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -
 #[must_use]
 pub fn cube(half_side: f64) -> Vec<Place> {
     let coordinates = [-half_side, 0.0, half_side];
-    let places = coordinates.iter().flat_map(|&x| coordinates.iter().flat_map(move |&y| coordinates.map(|z| [x, y, z])));
+    let places =
+        coordinates.iter().flat_map(|&x| coordinates.iter().flat_map(move |&y| coordinates.map(|z| [x, y, z])));
     places.filter(|place| *place != [0.0; 3]).collect()
 }
 

@@ -76,7 +76,8 @@ pub fn ddoc(world: &World, size: usize, settings: &Settings) -> Result<Ddoc, Set
         });
     }
     let drawn_after = started.elapsed().as_secs_f64();
-    let full = |index: usize| distortion::displacement(&map, [(index % size) as f64, (index / size) as f64], u32::MAX >> 4);
+    let full =
+        |index: usize| distortion::displacement(&map, [(index % size) as f64, (index / size) as f64], u32::MAX >> 4);
     Ok(Ddoc {
         image: Reference { view, near: world.near, raster },
         tally,

@@ -61,7 +61,8 @@ pub fn triangles(surface: &dyn Surface, lattice: &Lattice, t: f64, mut draw: imp
         }
     }
     // Most surfaces have no back; one that has shows it wherever it shows its front.
-    let has_back = front.iter().flatten().next().is_some_and(|node| surface.behind(node.at[0], node.at[1], t).is_some());
+    let has_back =
+        front.iter().flatten().next().is_some_and(|node| surface.behind(node.at[0], node.at[1], t).is_some());
     if !has_back {
         return;
     }

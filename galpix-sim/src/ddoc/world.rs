@@ -58,8 +58,10 @@ impl World {
     /// Sets [`Self::near`] a little before the nearest corner in the reference view.
     #[must_use]
     pub fn with_near(mut self) -> Self {
-        let seen = self.corners.iter().map(|corner| corner.place).filter(|&[x, y, z]| z > 0.0 && x.abs() <= z && y.abs() <= z);
-        let (nearest, farthest) = seen.fold((f64::MAX, 0.0), |(near, far): (f64, f64), [_, _, z]| (near.min(z), far.max(z)));
+        let seen =
+            self.corners.iter().map(|corner| corner.place).filter(|&[x, y, z]| z > 0.0 && x.abs() <= z && y.abs() <= z);
+        let (nearest, farthest) =
+            seen.fold((f64::MAX, 0.0), |(near, far): (f64, f64), [_, _, z]| (near.min(z), far.max(z)));
         self.near = (0.98 * nearest).max(NEAREST * farthest).min(f64::MAX);
         self
     }

@@ -97,5 +97,9 @@ fn timed<L: Layout + 'static>(
     let rounds = if update.samples.len() > LARGE { 1 } else { ROUNDS };
     let times = race(update, Effort { rounds, frames: frames.min(FRAMES) }, &makers, || {});
     drop(makers);
-    Ok(times.into_iter().zip(&carried).map(|(time, carried)| (time, carried.culling.as_ref().map(|culling| culling.time.as_secs_f64() * 1e6))).collect())
+    Ok(times
+        .into_iter()
+        .zip(&carried)
+        .map(|(time, carried)| (time, carried.culling.as_ref().map(|culling| culling.time.as_secs_f64() * 1e6)))
+        .collect())
 }

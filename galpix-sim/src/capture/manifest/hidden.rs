@@ -72,7 +72,9 @@ impl Hidden {
                 match &layer.motion {
                     Some(motion) => motion.check("hidden.motion"),
                     None if matches!(update.motion, Motion::Camera(_)) => Ok(()),
-                    None => Err(("has a hidden layer without a motion".into(), "add the key motion to [update.hidden]")),
+                    None => {
+                        Err(("has a hidden layer without a motion".into(), "add the key motion to [update.hidden]"))
+                    }
                 }
             }
             Self::Views(views) => {

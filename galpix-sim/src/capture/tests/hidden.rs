@@ -162,10 +162,25 @@ fn what_does_not_fit_is_refused_in_a_sentence() {
         ("kind = \"layer\"", "kind = \"layers\"", "capture.toml", "unknown variant `layers`"),
         ("kind = \"layer\",", "kind = \"layer\", tag = 1,", "capture.toml", "unknown key `tag`"),
         ("color = \"second.png\",", "", "capture.toml", "missing key `color`"),
-        ("depth = { kind = \"z\", file = \"second.npy\" }", "depth = { kind = \"z\", file = \"second.npy\", scale = 0 }", "capture.toml", "hidden.depth.scale is 0"),
-        ("depth = { kind = \"z\", file = \"second.npy\" }", "depth = { kind = \"speed\" }", "capture.toml", "another kind than update.depth"),
+        (
+            "depth = { kind = \"z\", file = \"second.npy\" }",
+            "depth = { kind = \"z\", file = \"second.npy\", scale = 0 }",
+            "capture.toml",
+            "hidden.depth.scale is 0",
+        ),
+        (
+            "depth = { kind = \"z\", file = \"second.npy\" }",
+            "depth = { kind = \"speed\" }",
+            "capture.toml",
+            "another kind than update.depth",
+        ),
         (OWN_FLOW, "", "capture.toml", "without a motion"),
-        (OWN_FLOW, "motion = { kind = \"flow\", file = \"second.flo\", frames = 0 }", "capture.toml", "hidden.motion.frames is 0"),
+        (
+            OWN_FLOW,
+            "motion = { kind = \"flow\", file = \"second.flo\", frames = 0 }",
+            "capture.toml",
+            "hidden.motion.frames is 0",
+        ),
     ] {
         assert!(own.contains(change), "{change}");
         refused(DEPTH, FLOW, &own.replace(change, to), file, what);
