@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Needs valgrind. The program runs itself under its callgrind, which counts what lies within [`counted_frame`]: one frame
-//! with the richest rung, after another of the same picture that is not counted. Prints a table; ends with 1 if the most
+//! with the richest rung, after another of the same picture that is not counted. Of several layers the base shows the picture
+//! and the others those that come after it in the table. Prints a table; ends with 1 if the most
 //! instructions are more than 1 % above the fewest in the mode of constant work, with 2 if it cannot count.
 
 #[path = "../benches/common/pictures.rs"]
@@ -19,10 +20,11 @@ use std::process::{Command, ExitCode, Stdio};
 
 use galpix_core::budget::{Bits, Demand};
 use galpix_core::edge;
-use galpix_core::frame::{Scratch, Settings, Work, step};
+use galpix_core::frame::{Controller, Scratch, Settings, Work, step};
 use galpix_core::galpixel::{Budget, Chosen, Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
+use galpix_core::layers::{Layer, Layers, seat_words};
 use galpix_core::layout::{Full, Layout, Shaded, Velocity565};
 use galpix_core::tally::Tally;
 use pictures::Picture;
@@ -46,7 +48,16 @@ impl Profile for PanelVelocity {
 }
 
 /// What is counted, in this order, and each in the order of [`Work::ALL`] and of [`Picture::ALL`].
-const LAYOUTS: [&str; 4] = ["Full", "Velocity565", "Shaded", "Full, chosen at run time"];
+const LAYOUTS: [&str; 8] = [
+    "Full",
+    "Velocity565",
+    "Shaded",
+    "Full, chosen at run time",
+    "Full, a controller's frame after the first",
+    "Full, a base alone, likewise",
+    "Full, two layers",
+    "Velocity565, two layers and an anchored one",
+];
 
 /// Runs a frame whose instructions callgrind counts. Must keep its name, and no generic parameters, for [`COUNTED`].
 #[inline(never)]
@@ -78,11 +89,82 @@ fn frames<L: Layout, B: Budget<L>>(width: u32, height: u32, budget: B) {
     }
 }
 
+/// Memory of a layer, or of a base: maps, winner map, edge map, seats and displacements.
+struct Memory {
+    maps: [Vec<u32>; 3],
+    winners: Vec<u32>,
+    edges: Vec<u32>,
+    seats: Vec<u32>,
+    displacements: Vec<u32>,
+}
+
+impl Memory {
+    fn new(grid: &Grid<'_>, words: usize) -> Self {
+        let cells = grid.cells() as usize;
+        Self {
+            maps: [0; 3].map(|word| vec![word; words]),
+            winners: vec![0; cells],
+            edges: vec![0; edge::words(grid)],
+            seats: vec![0; seat_words(grid)],
+            displacements: vec![0; cells],
+        }
+    }
+}
+
+/// One counted frame of each picture in each mode, of a base that shows it and of `HIDDEN` layers that show the pictures after
+/// it; the last of two layers or more is anchored. Without any other layer `bare` does without [`Layers`].
+fn layered<L: Layout, B: Budget<L>, const HIDDEN: usize>(width: u32, height: u32, budget: B, bare: bool) {
+    let mut starts = vec![0; Grid::rows(height, Wings::NONE)];
+    let grid = Grid::new(width, height, Wings::NONE, &mut starts).expect("a size that can be laid out");
+    let words = Galpixmap::<L, B>::words(&grid, budget);
+    for work in Work::ALL {
+        for (index, picture) in Picture::ALL.into_iter().enumerate() {
+            let lay = |memory| Galpixmap::<L, B>::new(grid, budget, memory).expect("memory enough");
+            let mut memory = Memory::new(&grid, words);
+            let Memory { maps: [front, back, _], winners, edges, .. } = &mut memory;
+            let mut front = lay(front);
+            let settings = Settings { work, ..Settings::for_depth(front.record().depth().bits.into()) };
+            picture.paint(&mut front);
+            let base = Controller::new(front, lay(back), Scratch { winners, edges }).expect("memory enough");
+            let mut memories: [Memory; HIDDEN] = std::array::from_fn(|_| Memory::new(&grid, words));
+            let mut next = Picture::ALL.into_iter().cycle().skip(index + 1);
+            let mut number = 0;
+            let hidden = memories.each_mut().map(|memory| {
+                let Memory { maps: [front, back, third], winners, edges, seats, displacements } = memory;
+                let (mut front, back) = (lay(front), lay(back));
+                next.next().unwrap_or(picture).paint(&mut front);
+                number += 1;
+                let layer = if number == 2 {
+                    Layer::anchored(front, displacements, back, lay(third), winners, seats)
+                } else {
+                    Layer::new(front, back, Scratch { winners, edges }, seats)
+                };
+                layer.expect("memory enough")
+            });
+            if bare {
+                let mut base = base;
+                let mut frame = || base.step(black_box(&settings));
+                black_box(frame());
+                black_box(counted_frame(black_box(&mut frame)));
+            } else {
+                let mut layers = Layers::new(base, hidden).expect("one grid");
+                let mut frame = || black_box(layers.step(black_box(&settings))).base;
+                black_box(frame());
+                black_box(counted_frame(black_box(&mut frame)));
+            }
+        }
+    }
+}
+
 fn all_frames((width, height): (u32, u32)) {
     frames::<Full, _>(width, height, Static::<Panel>::new());
     frames::<Velocity565, _>(width, height, Static::<PanelVelocity>::new());
     frames::<Shaded, _>(width, height, Static::<Panel>::new());
     frames::<Full, _>(width, height, Chosen::new(black_box(Panel::BITS)).expect("the budget of the static maps"));
+    layered::<Full, _, 0>(width, height, Static::<Panel>::new(), true);
+    layered::<Full, _, 0>(width, height, Static::<Panel>::new(), false);
+    layered::<Full, _, 1>(width, height, Static::<Panel>::new(), false);
+    layered::<Velocity565, _, 2>(width, height, Static::<PanelVelocity>::new(), false);
 }
 
 /// Runs this program under callgrind: the instructions of each counted frame, in their order.

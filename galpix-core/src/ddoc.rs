@@ -78,13 +78,22 @@ pub struct Settings {
     pub threshold: u32,
     /// Cells to each side of an edge's cell among which the line is laid that gives its direction, 1 to 15.
     pub window: u32,
+    /// Directions conflict if the cosine of the angle between them is not above this, in units of 2^-14. 0: from 90 degrees
+    /// on; -2^15 or less: never.
+    pub conflict: i32,
 }
 
 impl Settings {
     /// Settings for depths of `depth_bits` bits: 16 cells, symmetric.
     #[must_use]
     pub const fn for_depth(depth_bits: u32) -> Self {
-        Self { radius: 16, asymmetry: SYMMETRIC, threshold: edge::threshold_for_depth(depth_bits), window: 3 }
+        Self {
+            radius: 16,
+            asymmetry: SYMMETRIC,
+            threshold: edge::threshold_for_depth(depth_bits),
+            window: 3,
+            conflict: 0,
+        }
     }
 
     /// The settings, each within its range.
@@ -99,11 +108,20 @@ impl Settings {
                 value
             }
         }
+        // A little beyond the longest unit vectors' product, which rounding may make larger than 1.
+        const NEVER: i32 = 1 << (direction::FRACTION_BITS + 1);
         Self {
             radius: clamp(self.radius, 1, MOST_RADIUS),
             asymmetry: clamp(self.asymmetry, SYMMETRIC, 255),
             threshold: clamp(self.threshold, 0, i32::MAX as u32),
             window: clamp(self.window, 1, 15),
+            conflict: if self.conflict < -NEVER {
+                -NEVER
+            } else if self.conflict > NEVER {
+                NEVER
+            } else {
+                self.conflict
+            },
         }
     }
 }

@@ -127,6 +127,8 @@ pub enum SetupError {
     },
     /// Two maps that work together have different grids.
     GridsDiffer,
+    /// Objects are to be told apart in maps of a layout without tags.
+    NoTag,
 }
 
 impl fmt::Display for SetupError {
@@ -141,6 +143,9 @@ impl fmt::Display for SetupError {
                  the cells at most 2^28"
             ),
             Self::GridsDiffer => f.write_str("the two maps have different grids: lay both over the same one"),
+            Self::NoTag => f.write_str(
+                "the layout has no tag, so that objects cannot be told apart: choose one with a tag lane, as `Tagged`",
+            ),
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
 use crate::propagate::{advance, thresholds};
-use crate::record::MAX_WORDS;
+use crate::record::{MAX_WORDS, Words};
 use crate::resolve;
 use crate::rounding::Rounding;
 
@@ -32,13 +32,13 @@ pub enum Grafted {
     Empty,
 }
 
-/// Grafts the galpixel with these words, which was at column `x`, row `y` of the map (wings included) when the frame counter
+/// Grafts the galpixel with these words, which was at `place`, a column and a row of the map (wings included), when the frame counter
 /// was `stamp`, into a map whose frame counter is `now`. Words beyond the layout's are ignored, missing ones are 0.
 ///
 /// *Cost:* a step for each frame between; the caller bounds how many these may be.
 pub fn graft<L: Layout, B: Budget<L>>(
     map: &mut Galpixmap<'_, L, B>,
-    (x, y): (i32, i32),
+    place: (i32, i32),
     words: &[u32],
     rounding: Rounding,
     stamp: u32,
@@ -51,17 +51,8 @@ pub fn graft<L: Layout, B: Budget<L>>(
     if map.record().class().unsigned(&galpixel) == Class::Empty as u32 {
         return Grafted::Empty;
     }
-    let Some(mut cell) = map.grid().cell(x, y) else { return Grafted::Lost };
-    let (mut x, mut y, mut frame) = (x, y, stamp);
-    while frame != now {
-        let thresholds = thresholds(map.record(), rounding, frame);
-        let step = advance::<L, true>(map.record(), &thresholds, &mut galpixel);
-        (x, y) = (x + step.dx, y + step.dy);
-        // Who has left the map does not come back: in the map it would have been lost too.
-        let Some(reached) = map.grid().cell(x, y) else { return Grafted::Lost };
-        cell = reached;
-        frame = frame.wrapping_add(1);
-    }
+    let (reached, _) = caught_up(map, place, &mut galpixel, rounding, stamp, now);
+    let Some(cell) = reached else { return Grafted::Lost };
     let Some(incumbent) = map.words_at(cell) else { return Grafted::Lost };
     let (record, tag) = (map.record(), map.record().tag());
     let same_update = tag.present() && tag.unsigned(&incumbent) == tag.unsigned(&galpixel);
@@ -70,4 +61,28 @@ pub fn graft<L: Layout, B: Budget<L>>(
     }
     map.put(cell, &galpixel);
     Grafted::Put(cell)
+}
+
+/// Takes a galpixel through the frames from `stamp` to `now`: the cell that it has then, or nothing if it has left the map or
+/// never was in it; and its fields that were clamped.
+#[inline]
+pub(crate) fn caught_up<L: Layout, B: Budget<L>>(
+    map: &Galpixmap<'_, L, B>,
+    (mut x, mut y): (i32, i32),
+    galpixel: &mut Words,
+    rounding: Rounding,
+    stamp: u32,
+    now: u32,
+) -> (Option<u32>, u32) {
+    let (mut cell, mut frame, mut saturated) = (map.grid().cell(x, y), stamp, 0);
+    // Who has left the map does not come back: in the map it would have been lost too.
+    while frame != now && cell.is_some() {
+        let thresholds = thresholds(map.record(), rounding, frame);
+        let step = advance::<L, true>(map.record(), &thresholds, galpixel);
+        saturated += step.saturated();
+        (x, y) = (x + step.dx, y + step.dy);
+        cell = map.grid().cell(x, y);
+        frame = frame.wrapping_add(1);
+    }
+    (cell, saturated)
 }

@@ -31,6 +31,7 @@ mod shown;
 pub use anchored::{Displacement, displacement_word};
 pub use layer::{Layer, seat_words};
 
+use crate::edge::single::ones;
 use crate::error::SetupError;
 use crate::frame::{Controller, Inpainting, Settings, Work, fill_holes, move_on};
 use crate::galpixel::Budget;
@@ -149,7 +150,7 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
             let (Some(own), Some(above)) = (self.hidden.get(layer), self.hidden.get(layer + 1..)) else { continue };
             for (index, &seats) in own.seats().iter().enumerate() {
                 let taken = above.iter().fold(0, |taken, layer| taken | layer.seats().get(index).copied().unwrap_or(0));
-                *count += (seats & !taken).count_ones();
+                *count += ones(seats & !taken);
             }
         }
         counts
@@ -159,6 +160,12 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
     #[must_use]
     pub fn layer_at(&self, cell: u32) -> usize {
         self.hidden.iter().rposition(|layer| seat::bit(layer.seats(), cell) != 0).map_or(0, |hidden| hidden + 1)
+    }
+
+    /// Whether a layer is anchored, see [`Layer::anchored`].
+    #[must_use]
+    pub fn is_anchored(&self, layer: usize) -> bool {
+        layer.checked_sub(1).and_then(|hidden| self.hidden.get(hidden)).is_some_and(Layer::is_anchored)
     }
 
     /// What is shown, if nothing was written into a layer since.

@@ -11,7 +11,7 @@
 //! 3. [`edge`]: which cells are on the edge of a surface
 //! 4. [`fill`]: what is put where nothing arrived
 //! 5. [`inpaint`]: what is put there instead where a controller asks for more, from all that is known around it
-//! 6. [`scan_out`]: rows of colour for a display
+//! 6. [`scan_out`]: rows of colour for a display, under an [`overlay`] where one is pinned
 //!
 //! [`layers`] lets several maps move apart and shows them together. [`frame`] is their order; in the mode of [`constant`] work the instructions of 2 and 4 do not depend on the picture. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
 //! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
@@ -72,6 +72,8 @@ pub mod grid;
 pub mod inpaint;
 pub mod layers;
 pub mod layout;
+pub mod objects;
+pub mod overlay;
 pub mod propagate;
 pub mod record;
 pub mod resolve;

@@ -14,9 +14,10 @@ use galpix_core::error::{BudgetError, SetupError};
 use galpix_core::frame::{Settings, Work};
 use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Grid;
+use galpix_core::grid::{Grid, Wings as CoreWings};
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::layout::{Lanes, Layout};
+use galpix_core::overlay::{self, Overlay};
 use galpix_core::scan_out;
 use galpix_core::tally::Tally;
 
@@ -74,7 +75,7 @@ pub struct Ran {
 }
 
 /// One frame as the display shows it, and what is known about it.
-pub struct Frame<'f, L> {
+pub struct Frame<'f, L: Layout> {
     /// Frames since the update.
     pub number: u32,
     /// What the engine counted; all zero for the update itself.
@@ -82,6 +83,7 @@ pub struct Frame<'f, L> {
     /// The processor time of the engine's own work: what else runs on the machine does not count.
     pub time: Duration,
     map: &'f Galpixmap<'f, L, Chosen<L>>,
+    overlay: Option<&'f Overlay<'f, L::Colour>>,
     origins: &'f [u32],
 }
 
@@ -156,7 +158,7 @@ impl<L: Layout> Engine<L> {
         let mut memory = Base::new(update, self.budget)?;
         let mut controller = memory.controller(update, self.budget)?;
         let loaded = load(update, controller.front_mut());
-        let used = self.frames(controller, update, &[], frames, visit);
+        let used = self.frames(controller, update, &[], frames, visit)?;
         Ok(Ran { loaded, beside: Vec::new(), used })
     }
 
@@ -182,7 +184,7 @@ impl<L: Layout> Engine<L> {
         let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
         let loaded_beside = (1..).zip(beside).filter_map(store).collect();
         layers.resolve(Work::Skipping);
-        let used = self.frames(layers, update, beside, frames, visit);
+        let used = self.frames(layers, update, beside, frames, visit)?;
         Ok(Ran { loaded, beside: loaded_beside, used })
     }
 
@@ -194,8 +196,20 @@ impl<L: Layout> Engine<L> {
         beside: &[Beside<'_>],
         frames: u32,
         visit: Visit<'_, L>,
-    ) -> Vec<bool> {
+    ) -> Result<Vec<bool>, EngineError> {
         let grid = *show.front().grid();
+        let mut rows = vec![0; Grid::rows(grid.display_height(), CoreWings::NONE)];
+        let display = Grid::new(grid.display_width(), grid.display_height(), CoreWings::NONE, &mut rows)?;
+        let mut pinned = vec![0; if update.overlay.is_some() { Overlay::<L::Colour>::words(&display) } else { 0 }];
+        let overlay = match &update.overlay {
+            Some(given) => {
+                let mut overlay = Overlay::new(display, &mut pinned)?;
+                given.pin(&mut overlay);
+                Some(overlay)
+            }
+            None => None,
+        };
+        let overlay = overlay.as_ref();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         let mut origins = Origins::new(update, beside);
         let mut tally = Tally::default();
@@ -211,9 +225,9 @@ impl<L: Layout> Engine<L> {
                 origins.follow(&show, beside);
             }
             origins.look(&show, beside, display_cells(&grid));
-            visit(&Frame { number, tally, time, map: show.front(), origins: &origins.shown });
+            visit(&Frame { number, tally, time, map: show.front(), overlay, origins: &origins.shown });
         }
-        origins.used
+        Ok(origins.used)
     }
 }
 
@@ -226,14 +240,24 @@ impl<L: Layout> Frame<'_, L> {
         use galpix_core::colour::Colour;
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let pixels = (0..height as u32).flat_map(|y| scan_out::row(self.map, y)).map(L::Colour::to_rgb888).collect();
+        let rows = 0..height as u32;
+        let words: Vec<u32> = match self.overlay {
+            Some(overlay) => rows.flat_map(|y| overlay::row(self.map, overlay, y)).collect(),
+            None => rows.flat_map(|y| scan_out::row(self.map, y)).collect(),
+        };
+        let pixels = words.into_iter().map(L::Colour::to_rgb888).collect();
         Picture { width, height, pixels }
     }
 
-    /// For each pixel of the display, whether a galpixel of the update, or of a layer beside it, reached it.
+    /// For each pixel of the display, whether a galpixel of the update reached it, or something is pinned there.
     #[must_use]
     pub fn reached(&self) -> Vec<bool> {
-        display_cells(self.map.grid()).map(|cell| self.origins[cell as usize] != NO_ORIGIN).collect()
+        let width = self.map.grid().display_width();
+        let pinned = |at: u32| self.overlay.is_some_and(|overlay| overlay.pinned(at % width, at / width).is_some());
+        (0..)
+            .zip(display_cells(self.map.grid()))
+            .map(|(at, cell)| self.origins[cell as usize] != NO_ORIGIN || pinned(at))
+            .collect()
     }
 
     /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for each layer above

@@ -6,6 +6,7 @@
 //! *inverse* distance (`depth = 1 - near / z`), as in a z-buffer. Planes are then exactly linear in x and y, so that their
 //! Laplacian vanishes at any slant.
 
+use crate::overlay::Overlay;
 use crate::picture::Picture;
 
 /// What is known of one sample.
@@ -83,6 +84,8 @@ pub struct Update {
     pub samples: Vec<Sample>,
     /// Where the depth came from.
     pub depth_kind: DepthKind,
+    /// What is pinned over the picture; of the display's size.
+    pub overlay: Option<Overlay>,
 }
 
 impl Update {
@@ -98,12 +101,16 @@ impl Update {
         self.height - self.wings.top - self.wings.bottom
     }
 
-    /// The colours inside the display.
+    /// The colours inside the display, under what is pinned.
     #[must_use]
     pub fn picture(&self) -> Picture {
         let whole =
             Picture { width: self.width, height: self.height, pixels: self.samples.iter().map(|s| s.colour).collect() };
-        whole.crop(self.wings.left, self.wings.top, self.display_width(), self.display_height())
+        let display = whole.crop(self.wings.left, self.wings.top, self.display_width(), self.display_height());
+        match &self.overlay {
+            Some(overlay) => overlay.over(display),
+            None => display,
+        }
     }
 }
 

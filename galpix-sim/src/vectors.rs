@@ -2,13 +2,15 @@
 //! logic. The files are described in `docs/vectors.md`.
 //!
 //! ```text
-//! choice, inpaint (which cases) ─▶ maps (what is in them) ─▶ run (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
+//! choice, inpaint, layers (which cases) ─▶ maps (what is in them) ─▶ run, layered (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
 //! ```
 
 mod case;
 mod choice;
 mod hash;
 mod inpaint;
+mod layered;
+mod layers;
 mod maps;
 mod run;
 mod write;

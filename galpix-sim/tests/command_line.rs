@@ -7,8 +7,8 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const SCENES: [&str; 11] =
-    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball", "fovea"];
+const SCENES: [&str; 12] =
+    ["still", "drift", "pan", "ramp", "pillars", "crossing", "disc", "sphere", "near-plane", "ball", "fovea", "hud"];
 
 fn galpix(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));

@@ -348,8 +348,69 @@ def check_inpaint(case, where, differences):
     return Checked(0, 2 * len(arrays["map"]) + len(arrays["edges"])), arrays
 
 
+def check_layers(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    rung = get_choice(case, "rung", model.RUNGS, where)
+    reach, edge_threshold = get_int(case, "reach", where), get_int(case, "threshold", where)
+    n = get_int(case, "frame", where)
+    arrays, layers = {}, []
+    for number, entry in enumerate(get(case, "layers", list, where)):
+        here = f"{where}, layer {number}"
+        words = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
+        galpixels = model.unpack_map(words, record, cells)
+        length = cells if get(entry, "anchored", bool, here) else 0
+        places = arrays[f"displacements_{number}"] = get_words(entry, "displacements", here, length)
+        stored = displacements = None
+        if length:
+            stored, displacements = galpixels, [model.displacement_of(word) for word in places]
+            galpixels, _ = model.draw_anchored(engine, stored, displacements)
+        layers.append(model.Layer(galpixels, stored, displacements, get(entry, "winners", bool, here),
+                                  get(entry, "edges", bool, here)))
+    numbers = 0
+
+    def compare_shown(entry, key, here):
+        nonlocal numbers
+        shown = model.shown_layers(layers)
+        expected = get_words(entry, "layers", here, cells)
+        compare_numbers("layer of a cell", expected, shown, here, differences)
+        words = get_words(entry, "map", here, record.words * cells)
+        compare_map("map shown", words, model.shown_map(layers, shown), engine, here, differences)
+        arrays[f"shown_{key}"], arrays[f"layers_{key}"] = words, expected
+        numbers += len(words) + len(expected)
+
+    compare_shown(get(case, "first", dict, where), 0, f"{where}, at first")
+    for key, entry in enumerate(get(case, "frames", list, where), 1):
+        here = f"{where}, frame {key}"
+        layers, n, of, all_counts = model.frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold)
+        compare_shown(entry, key, here)
+        expected_counts = get(entry, "counts", list, here)
+        if len(expected_counts) != len(layers):
+            raise Broken(f"{here}: counts of {len(expected_counts)} layers, but there are {len(layers)}")
+        for number, counts in enumerate(all_counts):
+            compare_counts({"counts": expected_counts[number]}, counts, f"{here}, layer {number}", differences)
+            numbers += len(model.COUNTS)
+        shown = [of.count(number) for number in range(1, len(layers))]
+        compare_numbers("cells that show a layer", get_words(entry, "shown", here, len(shown)), shown, here, differences)
+        numbers += len(shown)
+    after = get(case, "after", list, where)
+    if len(after) != len(layers):
+        raise Broken(f"{where}: {len(after)} layers after the frames, but there are {len(layers)}")
+    for number, (entry, layer) in enumerate(zip(after, layers)):
+        here = f"{where}, layer {number} after the frames"
+        expected = arrays[f"own_{number}"] = get_words(entry, "map", here, record.words * cells)
+        compare_map("map", expected, layer.own if layer.stored is None else layer.stored, engine, here, differences)
+        places = [model.displacement_word(place) for place in layer.displacements or ()]
+        expected = arrays[f"displacements_after_{number}"] = get_words(entry, "displacements", here, len(places))
+        compare_numbers("displacement", expected, places, here, differences)
+        numbers += len(arrays[f"own_{number}"]) + len(places)
+    return Checked(len(case["frames"]), numbers), {name: words for name, words in arrays.items() if words}
+
+
 CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
-          "inpaint": check_inpaint}
+          "inpaint": check_inpaint, "layers": check_layers}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
@@ -357,6 +418,7 @@ COMPARED = {
     "fill": "records, maps, winners, counts",
     "frame": "records, maps, counts, hashes",
     "inpaint": "records, edges, maps before and after inpainting",
+    "layers": "records, displacements, own and shown maps, layers shown, counts",
 }
 
 
@@ -460,7 +522,7 @@ def main():
         return 2
     for kind in CHECKS:
         if cases[kind]:
-            print(f"{kind}: {cases[kind]} cases{f', {frames[kind]} frames' if kind == 'frame' else ''}, "
+            print(f"{kind}: {cases[kind]} cases{f', {frames[kind]} frames' if frames[kind] else ''}, "
                   f"{numbers[kind]} numbers compared ({COMPARED[kind]})")
     code = 0
     if differences:

@@ -731,10 +731,13 @@ def rounds_of(rung, reach):
     return clamp(reach, 1, 16)
 
 
-def is_inside(back, winners, edges, place, k):
-    """Section 10: "inside a surface" in round k; a place outside of the map is None."""
+def is_inside(back, winners, edges, place, k, foreign=()):
+    """Section 10: "inside a surface" in round k; a place outside of the map is None. Section 16: no foreign cell is."""
     if place is None:
         reached["10 not inside: outside of the map"] += 1
+        return False
+    if place in foreign:
+        reached["16 not inside: foreign"] += 1
         return False
     winner = winners[place]
     if back[place]["class"] != GALPIXEL:
@@ -753,11 +756,14 @@ def is_inside(back, winners, edges, place, k):
     return False
 
 
-def is_vacant(winners, place, k):
-    """Section 10: "vacant" in round k."""
+def is_vacant(winners, place, k, foreign=()):
+    """Section 10: "vacant" in round k. Section 16: no foreign cell is."""
     if place is None:
         reached["10 vacant: outside of the map"] += 1
         return True
+    if place in foreign:
+        reached["16 not vacant: foreign"] += 1
+        return False
     if winners[place] >= FILLED + k:
         reached["10 vacant: hole"] += 1
         return True
@@ -800,17 +806,17 @@ def mean(galpixels, format_name):
     return result
 
 
-def bullet_hole(engine, back, winners, edges, cell, k):
+def bullet_hole(engine, back, winners, edges, cell, k, foreign=()):
     """Section 10: the galpixel of a bullet hole, or None if the cell is none."""
     places = neighbours(engine.grid, cell)
-    inside = [back[place] if is_inside(back, winners, edges, place, k) else None for place in places]
+    inside = [back[place] if is_inside(back, winners, edges, place, k, foreign) else None for place in places]
     where = "sides"
     if inside == [None] * 4:
-        if not all([is_vacant(winners, place, k) for place in places]):
+        if not all([is_vacant(winners, place, k, foreign) for place in places]):
             reached["10 sides, case 5: none, some not vacant"] += 1
             return None
         where = "corners"
-        inside = [back[place] if is_inside(back, winners, edges, place, k) else None
+        inside = [back[place] if is_inside(back, winners, edges, place, k, foreign) else None
                   for place in corners(engine.grid, cell)]
     letters = "abcd"
     there = "".join(letter for letter, galpixel in zip(letters, inside) if galpixel is not None)
@@ -895,10 +901,13 @@ def last_resort(engine, rung, back, cell, before):
     return result, "debris"
 
 
-def fill(engine, rung, reach, edges, front, resolved, resolved_winners):
-    """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell, or None."""
+def fill(engine, rung, reach, edges, front, resolved, resolved_winners, foreign=()):
+    """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell, or None.
+
+    Section 16: `foreign` cells are no holes, and others may be left as holes.
+    """
     back, winners = list(resolved), list(resolved_winners)
-    holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY]
+    holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY and cell not in foreign]
     counts = {"holes": len(holes), "bullets": 0, "debris": 0, "galdebris": 0, "empty": 0}
     rounds = rounds_of(rung, reach)
     for k in range(rounds):
@@ -906,7 +915,7 @@ def fill(engine, rung, reach, edges, front, resolved, resolved_winners):
         for cell in holes:
             galpixel = None
             if tells_surfaces_apart(rung):
-                galpixel = bullet_hole(engine, back, winners, edges, cell, k)
+                galpixel = bullet_hole(engine, back, winners, edges, cell, k, foreign)
             if galpixel is not None:
                 reached["10 bullet hole in round 0" if k == 0 else "10 bullet hole in a later round"] += 1
                 if k == rounds - 1:
@@ -1313,6 +1322,141 @@ def inpaint(engine, inpainting, mask, before, edges, thresholds, after):
     return result
 
 
+# --- 16. Layers ------------------------------------------------------------------------------------------------------
+
+Layer = namedtuple("Layer", "own stored displacements has_winners has_edges")
+"""A layer: its own galpixels, one a cell; of an anchored one also what is stored and [dx, dy] a cell, else None."""
+
+
+def displacement_of(word):
+    """Section 16: [dx, dy] of the word of a displacement."""
+    return [as_signed(low_bits(word, 16), 16), as_signed(word >> 16, 16)]
+
+
+def displacement_word(place):
+    """Section 16: the word of [dx, dy]."""
+    return low_bits(place[0], 16) | low_bits(place[1], 16) << 16
+
+
+def shown_layers(layers):
+    """Section 16: for each cell the number of the layer that is shown."""
+    numbers = []
+    for cell in range(len(layers[0].own)):
+        there = [(layer.own[cell]["class"], layer.own[cell]["depth"], number)
+                 for number, layer in enumerate(layers) if layer.own[cell]["class"] != EMPTY]
+        if not there:
+            reached["16 shown: nothing, the base's cell"] += 1
+            numbers.append(0)
+            continue
+        there.sort()
+        if len(there) > 1:
+            level = "class" if there[0][0] != there[1][0] else "depth" if there[0][1] != there[1][1] else "layer"
+            reached[f"16 shown by {level}"] += 1
+        reached["16 shown: the base" if there[0][2] == 0 else "16 shown: another layer"] += 1
+        if there[0][2] and layers[0].own[cell]["class"] == EMPTY:
+            reached["16 shown: where the base has nothing"] += 1
+        numbers.append(there[0][2])
+    return numbers
+
+
+def shown_map(layers, numbers):
+    """Section 16: what is shown."""
+    return [layers[number].own[cell] for cell, number in enumerate(numbers)]
+
+
+def draw_anchored(engine, stored, displacements):
+    """Section 16: (drawn map, counts) of an anchored layer."""
+    arrivals = []
+    for source, galpixel in enumerate(stored):
+        if galpixel["class"] != EMPTY:
+            right, down = displacements[source]
+            arrivals.append(Arrival(source, target_cell(engine.grid, source, right, down), galpixel))
+    drawn, _, counts = resolve(arrivals, len(stored))
+    if counts["lost"]:
+        reached["16 anchored: lost, but stored"] += 1
+    if counts["collided"]:
+        reached["16 anchored: discarded, but stored"] += 1
+    return drawn, counts
+
+
+def step_anchored(engine, layer, thresholds):
+    """Section 16: (layer, counts) of an anchored layer one frame later."""
+    stored, displacements, saturated = [], [], 0
+    for galpixel, place in zip(layer.stored, layer.displacements):
+        if galpixel["class"] == EMPTY:
+            stored.append(galpixel)
+            displacements.append(place)
+            continue
+        after, right, down, fields = step_galpixel(engine, galpixel, thresholds)
+        saturated += fields
+        stored.append(after)
+        moved = [place[0] + right, place[1] + down]
+        clamped = [clamp(cells, -32768, 32767) for cells in moved]
+        if clamped != moved:
+            reached["16 anchored: displacement clamped"] += 1
+        displacements.append(clamped)
+    drawn, counts = draw_anchored(engine, stored, displacements)
+    return layer._replace(own=drawn, stored=stored, displacements=displacements), {**counts, "saturated": saturated}
+
+
+def step_layer(engine, layer, n, rounding, rung, reach, edge_threshold, is_base):
+    """Section 16, steps 2 and 3: (new own map, winners, edges or None, counts) of a layer that is not anchored."""
+    counts = dict.fromkeys(COUNTS, 0)
+    edges = None
+    if tells_surfaces_apart(rung) and layer.has_edges:
+        edges = edge_map(layer.own, engine.grid, edge_threshold)
+        counts["edges"] = sum(edges)
+    arrivals, counts["saturated"] = propagate(engine, layer.own, rounding, n)
+    own, winners, resolved_counts = resolve(arrivals, len(layer.own))
+    counts.update(resolved_counts)
+    if not is_base and edges is not None and layer.has_winners:
+        for k in range(rounds_of(rung, reach)):
+            holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY]
+            filled = [(cell, bullet_hole(engine, own, winners, edges, cell, k)) for cell in holes]
+            for cell, galpixel in filled:
+                if galpixel is None:
+                    reached["16 hole stays in its layer"] += 1
+                else:
+                    reached["16 bullet hole in another layer"] += 1
+                    own[cell], winners[cell] = galpixel, FILLED + k
+                    counts["holes"] += 1
+                    counts["bullets"] += 1
+    elif not is_base:
+        reached["16 layer whose holes all stay"] += 1
+    return own, winners, edges, counts
+
+
+def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
+    """Section 16: (layers, next frame counter, numbers of the layers shown, counts a layer) one frame later."""
+    before = shown_map(layers, shown_layers(layers))
+    thresholds = thresholds_of(engine, rounding, n)
+    moved, all_counts = [], []
+    base_winners = base_edges = None
+    for number, layer in enumerate(layers):
+        counts = dict.fromkeys(COUNTS, 0)
+        if layer.stored is not None:
+            layer, drawn_counts = step_anchored(engine, layer, thresholds)
+            counts.update(drawn_counts)
+        else:
+            own, winners, edges, counts = step_layer(engine, layer, n, rounding, rung, reach, edge_threshold,
+                                                     number == 0)
+            layer = layer._replace(own=own)
+            if number == 0:
+                base_winners, base_edges = winners, edges
+        moved.append(layer)
+        all_counts.append(counts)
+    numbers = shown_layers(moved)
+    foreign = frozenset(cell for cell, number in enumerate(numbers) if number)
+    if any(base_winners[cell] == NOBODY for cell in foreign):
+        reached["16 hole of the base under another layer"] += 1
+    filled, _, fill_counts = fill(engine, rung, reach, base_edges, before, shown_map(moved, numbers), base_winners,
+                                  foreign)
+    all_counts[0].update(fill_counts)
+    own = [moved[0].own[cell] if cell in foreign else filled[cell] for cell in range(len(filled))]
+    moved[0] = moved[0]._replace(own=own)
+    return moved, (n + 1) % (1 << 32), numbers, all_counts
+
+
 # --- The rules -------------------------------------------------------------------------------------------------------
 
 def rule_names():
@@ -1369,6 +1513,12 @@ def rule_names():
     names += ["10 extend: left is farther", "10 extend: right is farther", "10 extend: equal depths, left",
               "10 extend: only left", "10 extend: only right", "10 extend: row empty, before"]
     names += ["11 edge map made", "11 no edge map", "11 not inside: no edge map", "11 frame counter wraps"]
+    names += ["16 not inside: foreign", "16 not vacant: foreign", "16 shown: nothing, the base's cell",
+              "16 shown by class", "16 shown by depth", "16 shown by layer", "16 shown: the base",
+              "16 shown: another layer", "16 shown: where the base has nothing", "16 anchored: lost, but stored",
+              "16 anchored: discarded, but stored", "16 anchored: displacement clamped",
+              "16 hole stays in its layer", "16 bullet hole in another layer", "16 layer whose holes all stay",
+              "16 hole of the base under another layer"]
     names += ["14 no mask", "14 mask ends before the cell", "14 class 1, bit set", "14 class 1, bit not set",
               "14 bit of a cell of another class", "14 no depth lane", "14 down 0", "14 down > 0",
               "14 depth of the background", "14 no depth of the background", "14 quad without an edge map",

@@ -28,6 +28,10 @@ layouts! {
     TinySlide: Gray4, Lanes { acceleration: false, ..PLANE };
     /// Motion in depth over a z-buffer of 3 bits and a fraction.
     TinyDepth: Gray4, Lanes { depth_bits: 3, depth_motion: true, ..PLANE };
+    /// Motion in the plane before a z-buffer of 2 bits.
+    TinyDeep: Gray4, Lanes { depth_bits: 2, ..PLANE };
+    /// The same without acceleration.
+    TinyDeepSlide: Gray4, Lanes { depth_bits: 2, acceleration: false, ..PLANE };
     /// Shading inertia of 4 bits of gray.
     TinyShaded: Gray4, Lanes { luminosity: true, ..Lanes::NONE };
     /// Shading inertia where one channel is wider than the others.

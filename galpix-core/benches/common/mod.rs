@@ -10,7 +10,6 @@ pub mod textbook;
 use std::hint::black_box;
 
 use galpix_core::budget::{Bits, Demand};
-use galpix_core::edge;
 use galpix_core::frame::{Scratch, Settings, step};
 use galpix_core::galpixel::{Budget, Profile};
 use galpix_core::galpixmap::Galpixmap;
@@ -18,6 +17,7 @@ use galpix_core::grid::{Grid, Wings};
 use galpix_core::layout::Layout;
 use galpix_core::sweep::sweep;
 use galpix_core::tally::Tally;
+use galpix_core::{disocclusion, edge};
 use galpix_core::{fill, scan_out};
 
 use scene::Sample;
@@ -52,6 +52,7 @@ pub struct Maps<L: 'static, B: 'static> {
     /// How a step is made.
     pub settings: Settings,
     line: Vec<u32>,
+    extents: Vec<u32>,
 }
 
 fn lent(words: usize) -> &'static mut [u32] {
@@ -73,11 +74,11 @@ impl<L: Layout, B: Budget<L>> Maps<L, B> {
         }
         let scratch = Scratch { winners: lent(grid.cells() as usize), edges: lent(edge::words(&grid)) };
         let settings = Settings::for_depth(front.record().depth().bits.into());
-        Self { front, back, scratch, settings, line: vec![0; width as usize] }
+        Self { front, back, scratch, settings, line: vec![0; width as usize], extents: vec![0; grid.cells() as usize] }
     }
 
     /// The stages, in the order of the frame. `sweep` is propagation and resolution.
-    pub fn stages() -> [Stage<L, B>; 6] {
+    pub fn stages() -> [Stage<L, B>; 7] {
         let stage = |name, run| Stage { name, before: None, run };
         [
             stage("sweep", |maps| {
@@ -91,6 +92,7 @@ impl<L: Layout, B: Budget<L>> Maps<L, B> {
                 black_box(step(&maps.front, &mut maps.back, &mut maps.scratch, &maps.settings, 1));
             }),
             stage("scan-out", Self::scan_out),
+            stage("disocclusion", Self::disocclusion),
         ]
     }
 
@@ -112,6 +114,12 @@ impl<L: Layout, B: Budget<L>> Maps<L, B> {
         let (rung, reach) = (settings.rung, settings.reach);
         fill::fill(&self.front, &mut self.back, scratch.winners, scratch.edges, rung, reach, &mut tally);
         black_box(tally);
+    }
+
+    /// The disocclusion map for an update every 16 frames.
+    fn disocclusion(&mut self) {
+        let reach = disocclusion::Reach::new(16, self.front.record().depth().bits.into());
+        black_box(disocclusion::map(&self.front, &mut self.extents, &reach));
     }
 
     /// All rows as colour words, each into the memory of the same line.

@@ -6,7 +6,7 @@
 //! - **Edge cells** are those whose Laplacian (17) is *above* the threshold: their neighbours are farther. Those on the other
 //!   side of the same edge are as far below; they are no centres, or each edge would count twice, once from its wrong side.
 //! - **Of two splats** the one whose centre is closer has a cell; of two as close the one that comes first, row by row.
-//! - **A conflict** is a cell that a splat covers and another one owns whose direction is more than 90 degrees off. The splat
+//! - **A conflict** is a cell that a splat covers and another one owns whose direction is 90 degrees off or more. The splat
 //!   shrinks until the closest such cell is just outside. Owners do not change in the meantime, so the order does not matter.
 //! - **Orphans** are cells that have become too far for their owner; they are not distorted any more.
 
@@ -169,12 +169,7 @@ pub(super) fn gather<'s>(
 /// The splat around an edge's cell, unless it faces nowhere.
 fn found(grid: &Grid<'_>, depths: &[u32], settings: &Settings, edges: &[u32], [x, y]: [i32; 2]) -> Option<Splat> {
     let near = at(grid, depths, x, y)?;
-    let mut far = near;
-    for (dx, dy) in [(0, -1), (-1, 0), (1, 0), (0, 1)] {
-        if let Some(depth) = at(grid, depths, x + dx, y + dy) {
-            far = if depth > far { depth } else { far };
-        }
-    }
+    let (facing, far) = farthest(grid, depths, [x, y])?;
     let mut window = Window::default();
     let reach = settings.window as i32;
     for dy in -reach..=reach {
@@ -183,16 +178,31 @@ fn found(grid: &Grid<'_>, depths: &[u32], settings: &Settings, edges: &[u32], [x
             let step = i64::from(depth) - i64::from(near);
             window.slope[0] += step * i64::from(dx);
             window.slope[1] += step * i64::from(dy);
-            // Other things have edges, too: those whose depth is beyond the middle of this step.
+            // Other things have edges, too: those whose depth is beyond the middle of this step. And a thin thing has another
+            // edge close by, which faces the other way.
             let same = step.unsigned_abs() * 2 < u64::from(far - near);
             if same && at(grid, edges, x + dx, y + dy) == Some(1) {
-                window.moments.add(dx, dy);
+                let (other, _) = farthest(grid, depths, [x + dx, y + dy])?;
+                if facing[0] * other[0] + facing[1] * other[1] >= 0 {
+                    window.moments.add(dx, dy);
+                }
             }
         }
     }
     let direction = direction::direction(&window)?;
     let radius = settings.radius << FRACTION_BITS;
     Some(Splat { cell: [x as u16, y as u16], direction, near, far, radius })
+}
+
+/// The farthest of the four neighbours of a cell, or the cell itself: the way to it, and its depth. Of neighbours as far, the first.
+fn farthest(grid: &Grid<'_>, depths: &[u32], [x, y]: [i32; 2]) -> Option<([i32; 2], u32)> {
+    let mut found = ([0, 0], at(grid, depths, x, y)?);
+    for [dx, dy] in [[0, -1], [-1, 0], [1, 0], [0, 1]] {
+        if let Some(depth) = at(grid, depths, x + dx, y + dy).filter(|&depth| depth > found.1) {
+            found = ([dx, dy], depth);
+        }
+    }
+    Some(found)
 }
 
 /// Writes 1 for the near side of an edge, 0 for all else. Beyond the border the depths go on.
@@ -250,7 +260,7 @@ pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], spl
     }
 }
 
-/// Step 4: shrinks splats until no cell that they cover is another's with a direction more than 90 degrees off.
+/// Step 4: shrinks splats until no cell that they cover is another's whose direction conflicts with theirs.
 pub(super) fn shrink(
     grid: &Grid<'_>,
     settings: &Settings,
@@ -264,7 +274,7 @@ pub(super) fn shrink(
         around(grid, owners, &splat, |from, owner| {
             let Some(other) = splats.get(owner.wrapping_sub(1) as usize) else { return };
             let [x, y] = [0, 1].map(|axis: usize| i32::from(splat.direction[axis]) * i32::from(other.direction[axis]));
-            if x + y < 0 && splat.covers(from, settings.asymmetry) {
+            if x + y <= settings.conflict << direction::FRACTION_BITS && splat.covers(from, settings.asymmetry) {
                 radius = radius.min(splat.outside(from, settings.asymmetry));
             }
         });

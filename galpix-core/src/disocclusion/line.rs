@@ -3,7 +3,7 @@
 //! What [`super::map`] does in one pass down and one pass up, where on the way up the rows are marked anew. Of the line before only one
 //! extent matters, the one that moves with the pass; so that the word of a cell holds it in the place of the opposite one.
 
-use super::extents::{DOWNWARDS, UPWARDS};
+use super::extents::{DOWNWARDS, EXTENTS, UPWARDS, extent, shorter, shut};
 use super::mark::Marker;
 use super::{Reach, Tally, spread};
 use crate::galpixel::Budget;
@@ -57,13 +57,15 @@ impl<L: Layout, B: Budget<L>> Pass<'_, '_, L, B> {
         }
         spread::along(self.line, !(0xff << AGAINST));
         for (word, cell) in self.line.iter_mut().zip(start..) {
-            let covered = u32::from(*word != 0);
+            let own = extent::<WAY>(*word);
+            let handed = if *word & shut::<WAY>() == 0 { extent::<AGAINST>(*word) } else { 0 };
+            let others = EXTENTS & !(0x7f << WAY | 0x7f << AGAINST);
+            let covered = u32::from(*word & others | own | handed != 0);
             if let Some(mask) = self.mask.get_mut((cell >> 5) as usize) {
                 self.covered += covered & !(*mask >> (cell & 31));
                 *mask |= covered << (cell & 31);
             }
-            let moving = (*word >> WAY & 0xff).max(*word >> AGAINST & 0xff);
-            *word = moving.saturating_sub(1) << AGAINST;
+            *word = shorter::<AGAINST>(own.max(handed) << AGAINST);
         }
     }
 }

@@ -208,7 +208,7 @@ fn flag<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, threshold: i32, z0
 }
 
 /// How many bits are set, without the multiplication of `count_ones`.
-const fn ones(bits: u32) -> u32 {
+pub(crate) const fn ones(bits: u32) -> u32 {
     let pairs = bits - (bits >> 1 & 0x5555_5555);
     let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
     let eights = (fours + (fours >> 4)) & 0x0f0f_0f0f;

@@ -97,3 +97,18 @@ impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
         tally
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_displacement_survives_its_word_and_is_clamped_to_it() {
+        for place in [[0, 0], [1, -1], [-32768, 32767], [32767, -32768], [-7, 300]] {
+            assert_eq!(displacement(displacement_word(place)), place);
+        }
+        assert_eq!(displacement(displacement_word([32768, -32769])), [32767, -32768]);
+        assert_eq!(displacement(displacement_word([i32::MIN, i32::MAX])), [-32768, 32767]);
+        assert_eq!(displacement_word([1, 2]), 0x0002_0001);
+    }
+}

@@ -152,6 +152,10 @@ impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
         self.anchored.as_mut().map(|Anchored { displacements, .. }| &mut **displacements)
     }
 
+    pub(super) const fn is_anchored(&self) -> bool {
+        self.anchored.is_some()
+    }
+
     pub(super) fn winners(&self) -> &[u32] {
         self.scratch.winners
     }

@@ -7,6 +7,7 @@ use crate::frame::Work;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
+use crate::sweep::VECTORS;
 
 /// Cells that are looked at once: a word of seats.
 const RUN: usize = 32;
@@ -46,13 +47,12 @@ pub(super) fn take<L: Layout, B: Budget<L>>(
             for (lane, &nearer) in nearer.iter().enumerate() {
                 *seats |= (nearer & 1) << lane;
             }
-            exchange(base, layer, run, &nearer);
+            exchange(base, layer, run, *seats, work);
         }
     }
 }
 
-/// Undoes [`take`], but for what was made up in the base to fill a hole: where a layer has covered it, it is dropped. It would be stale when
-/// the cell opens again, and is then filled anew.
+/// Undoes [`take`].
 pub(super) fn leave<L: Layout, B: Budget<L>>(
     base: &mut Galpixmap<'_, L, B>,
     layer: &mut Galpixmap<'_, L, B>,
@@ -62,43 +62,42 @@ pub(super) fn leave<L: Layout, B: Budget<L>>(
     let cells = base.grid().cells() as usize;
     for (index, &seats) in seats.iter().enumerate() {
         if work == Work::Constant || seats != 0 {
-            let mut seated = [0; RUN];
-            for (lane, seated) in seated.iter_mut().enumerate() {
-                *seated = (seats >> lane & 1).wrapping_neg();
-            }
-            let run = index * RUN..cells.min(index * RUN + RUN);
-            exchange(base, layer, run.clone(), &seated);
-            drop_debris(base, run, &seated);
+            exchange(base, layer, index * RUN..cells.min(index * RUN + RUN), seats, work);
         }
     }
 }
 
-/// Empties the cells of a run that hold no galpixel, where the mask has ones.
-#[inline(always)]
-fn drop_debris<L: Layout, B: Budget<L>>(base: &mut Galpixmap<'_, L, B>, run: Range<usize>, masks: &[u32; RUN]) {
-    let class = base.record().class();
-    let (word, _) = class.words();
-    // Galpixel is the class without a bit, empty the one with all its bits.
-    let all = (Class::Empty as u32) << class.shift;
-    let Some(words) = base.planes_mut().get_mut(word).and_then(|plane| plane.get_mut(run)) else { return };
-    for (word, mask) in words.iter_mut().zip(masks) {
-        let debris = below(0, *word & all) & mask;
-        *word |= debris & all;
-    }
-}
-
-/// Exchanges the words of a run of cells where the mask has ones.
+/// Exchanges the words of those cells of a run whose bit is set.
 #[inline(always)]
 fn exchange<L: Layout, B: Budget<L>>(
     base: &mut Galpixmap<'_, L, B>,
     layer: &mut Galpixmap<'_, L, B>,
     run: Range<usize>,
-    masks: &[u32; RUN],
+    seats: u32,
+    work: Work,
 ) {
     let words = base.record().words();
-    for (base, layer) in base.planes_mut().iter_mut().zip(layer.planes_mut()).take(words) {
+    let planes = base.planes_mut().iter_mut().zip(layer.planes_mut()).take(words);
+    if work == Work::Skipping && !VECTORS {
+        for (base, layer) in planes {
+            let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };
+            let mut rest = seats;
+            for (base, layer) in base.iter_mut().zip(layer) {
+                if rest & 1 != 0 {
+                    core::mem::swap(base, layer);
+                }
+                rest >>= 1;
+            }
+        }
+        return;
+    }
+    let mut masks = [0; RUN];
+    for (lane, mask) in masks.iter_mut().enumerate() {
+        *mask = (seats >> lane & 1).wrapping_neg();
+    }
+    for (base, layer) in planes {
         let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };
-        for ((base, layer), mask) in base.iter_mut().zip(layer).zip(masks) {
+        for ((base, layer), mask) in base.iter_mut().zip(layer).zip(&masks) {
             let apart = (*base ^ *layer) & mask;
             *base ^= apart;
             *layer ^= apart;

@@ -5,10 +5,12 @@ use std::io::Cursor;
 use image::ImageDecoder;
 use image::codecs::jpeg::JpegDecoder;
 
+use super::Census;
 use super::error::CaptureError;
 use super::exr_planes::{Planes, under};
 use super::png_raster;
 use super::source::{Format, Size, Source};
+use crate::overlay::Overlay;
 use crate::picture::Picture;
 
 /// Reads a colour picture as 8-bit sRGB; alpha is left out.
@@ -90,6 +92,30 @@ fn srgb(linear: f64) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let code = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (code * 255.0).round() as u8
+}
+
+/// What is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half. Others that are not
+/// quite transparent, or not quite opaque, are noted.
+pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> Result<Overlay, CaptureError> {
+    if source.format()? != Format::Png {
+        return Err(source.fault("is not a PNG, as an overlay must be", "save it as a PNG with alpha"));
+    }
+    let raster = png_raster::read(source, Some(expected))?;
+    if raster.channels % 2 != 0 {
+        return Err(
+            source.fault("has no alpha, so that it would hide the whole picture", "save it as a PNG with alpha")
+        );
+    }
+    let alphas: Vec<u16> = raster.band(raster.channels - 1).collect();
+    let translucent = alphas.iter().filter(|&&alpha| alpha != 0 && alpha != raster.white).count();
+    if translucent != 0 {
+        census
+            .notes
+            .push(format!("{translucent} translucent pixels of the overlay: pinned from an alpha of one half on"));
+    }
+    let pinned = |(colour, alpha): ([u8; 3], u16)| (alpha > raster.white / 2).then_some(colour);
+    let pixels = raster.colours().into_iter().zip(alphas).map(pinned).collect();
+    Ok(Overlay { width: expected.width, height: expected.height, pixels })
 }
 
 /// A mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.

@@ -43,9 +43,18 @@ pub(super) struct Update {
     pub acceleration: Option<Acceleration>,
     #[serde(default)]
     pub background: Background,
+    /// What is pinned over the picture: a PNG with alpha.
+    pub overlay: Option<Overlay>,
     /// For `background = "camera"` where the motion is not of the kind `camera`.
     pub camera: Option<Camera>,
     pub hidden: Option<Hidden>,
+}
+
+/// `overlay = { file }`.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Overlay {
+    pub file: String,
 }
 
 /// `[[truth]]`.

@@ -110,8 +110,13 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     }
     acceleration::apply(options.acceleration, &mut motion, &distances, size, manifest.frames);
     let unit = samples::Unit::of(&update.depth, &distances, &motion);
-    let update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
+    let overlay = match &update.overlay {
+        Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census)?),
+        None => None,
+    };
     let hidden = hidden::read(&manifest, folder, size, unit, &distances, options, &mut census)?;
+    let mut update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
+    update.overlay = overlay;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
     let truths = truths(&manifest, folder, size)?;
     Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, hidden, truths, census })

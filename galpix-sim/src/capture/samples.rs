@@ -67,7 +67,7 @@ pub(super) fn assemble(
         known.unwrap_or(Sample { colour, known: Known::ColourOnly, ..Sample::default() })
     });
     let samples = samples.collect();
-    Update { width: picture.width, height: picture.height, wings: Wings::default(), samples, depth_kind }
+    Update { width: picture.width, height: picture.height, wings: Wings::default(), samples, depth_kind, overlay: None }
 }
 
 fn extreme(distances: &[Distance], start: f64, pick: fn(f64, f64) -> f64) -> f64 {

@@ -56,7 +56,7 @@ pub fn json(document: &impl serde::Serialize) -> Result<String, CliError> {
 }
 
 /// Makes the folder and tries to write into it, before anything is measured.
-fn writable(out: &Path) -> Result<(), CliError> {
+pub(super) fn writable(out: &Path) -> Result<(), CliError> {
     let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
     std::fs::create_dir_all(out).map_err(unwritable)?;
     let probe = out.join(format!(".galpix.{}.probe", std::process::id()));

@@ -94,7 +94,7 @@ fn marked(width: usize, height: usize, wings: Wings, velocity: [f64; 3]) -> Upda
         ..Sample::default()
     };
     let samples = (0..width * height).map(cell).collect();
-    Update { width, height, wings, samples, depth_kind: DepthKind::Z }
+    Update { width, height, wings, samples, depth_kind: DepthKind::Z, overlay: None }
 }
 
 #[test]

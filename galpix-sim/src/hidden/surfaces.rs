@@ -64,7 +64,8 @@ mod tests {
             _ => Sample { depth: 0.2, tag: 2, ..Sample::default() },
         };
         let samples = art.iter().flat_map(|row| row.chars().map(sample)).collect();
-        let update = Update { width: 4, height: 2, wings: Wings::default(), samples, depth_kind: DepthKind::Z };
+        let update =
+            Update { width: 4, height: 2, wings: Wings::default(), samples, depth_kind: DepthKind::Z, overlay: None };
         let covering = [true, true, true, false, true, true, true, false];
         let leaving = |cell: usize| {
             let leaves: Vec<bool> = (0..8).map(|other| other == cell).collect();

@@ -50,6 +50,15 @@ pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Op
     Some((10.0 * (255.0_f64.powi(2) / mean).log10()).min(PSNR_CAP_DB))
 }
 
+/// The PSNR of several pictures of one size taken together, from each one's: that of their mean squared error, so that a picture
+/// without error among them does not outweigh the others. At most [`PSNR_CAP_DB`], which it also is of none.
+#[must_use]
+pub fn pooled_db(decibels: &[f64]) -> f64 {
+    let errors: f64 = decibels.iter().map(|db| if *db >= PSNR_CAP_DB { 0.0 } else { 10_f64.powf(-db / 10.0) }).sum();
+    let mean = errors / decibels.len().max(1) as f64;
+    (-10.0 * mean.log10()).min(PSNR_CAP_DB)
+}
+
 /// Mean structural similarity of luma (Rec. 709 weights on the sRGB code values): 1 for identical pictures.
 ///
 /// As Wang et al. 2004 define it, with Gaussian windows of 11x11 and sigma 1.5, averaged over the counted cells whose window
@@ -140,6 +149,17 @@ mod tests {
         let mut picture = Picture::filled(width, height, [0; 3]);
         picture.pixels[0][0] = red;
         picture
+    }
+
+    #[test]
+    fn a_picture_without_error_does_not_outweigh_the_others() {
+        near(Some(pooled_db(&[30.0, 30.0])), 30.0, 1e-12);
+        // Half the error is 3.01 dB more, whatever the exact picture's own figure is.
+        near(Some(pooled_db(&[30.0, 100.0])), 33.010_299_956_6, 1e-9);
+        // Ten times and a hundredth of it: (10 + 0.01) / 2.
+        near(Some(pooled_db(&[20.0, 50.0])), 23.006_8, 1e-3);
+        near(Some(pooled_db(&[100.0])), 100.0, 0.0);
+        near(Some(pooled_db(&[])), 100.0, 0.0);
     }
 
     #[test]

@@ -61,6 +61,7 @@ fn update_of(scene: &dyn Scene, samples: Vec<Sample>) -> Update {
         wings,
         samples,
         depth_kind: scene.depth_kind(),
+        overlay: None,
     }
 }
 

@@ -10,6 +10,7 @@ mod crossing;
 mod disc;
 mod drift;
 mod fovea;
+mod hud;
 pub mod jet;
 mod near_plane;
 mod pan;
@@ -26,6 +27,7 @@ mod tests;
 
 pub use behind::{Peel, behind, each};
 
+use crate::overlay::Overlay;
 use crate::picture::Picture;
 use crate::update::{DepthKind, Known, Sample, Update, Wings};
 use jet::Jet;
@@ -67,6 +69,11 @@ pub trait Scene: Sync {
         DepthKind::Z
     }
 
+    /// What is pinned over the picture and never moves: of the display's size.
+    fn overlay(&self) -> Option<Overlay> {
+        None
+    }
+
     /// What the world is built of. Surface `i` has the tag `i + 1`; of two at the same depth the earlier one is seen.
     fn surfaces(&self) -> &[&dyn Surface];
 
@@ -99,7 +106,7 @@ pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2]
 }
 
 /// What is known of a point of surface `index` at time `t`.
-fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
+pub(crate) fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
     let place = surface.place(hit.point, Jet::time(t));
     Sample {
         colour: round(colour(surface, hit, t)),
@@ -136,10 +143,10 @@ pub fn update(scene: &dyn Scene, t: f64) -> Update {
         (0..width).map(move |i| scene.sample(i as f64 - wings.left as f64, y, t))
     };
     let samples = (0..height).into_par_iter().flat_map_iter(row).collect();
-    Update { width, height, wings, samples, depth_kind: scene.depth_kind() }
+    Update { width, height, wings, samples, depth_kind: scene.depth_kind(), overlay: scene.overlay() }
 }
 
-/// The true picture on the display at time `t`, sampled anew from the world; nothing is warped.
+/// The true picture on the display at time `t`, sampled anew from the world under what is pinned; nothing is warped.
 #[must_use]
 pub fn render(scene: &dyn Scene, t: f64) -> Picture {
     let (width, height) = (scene.width(), scene.height());
@@ -148,7 +155,11 @@ pub fn render(scene: &dyn Scene, t: f64) -> Picture {
         None => [0; 3],
     };
     let pixels = (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| pixel(x, y))).collect();
-    Picture { width, height, pixels }
+    let picture = Picture { width, height, pixels };
+    match scene.overlay() {
+        Some(overlay) => overlay.over(picture),
+        None => picture,
+    }
 }
 
 /// Every built-in scene, from the calmest to the wildest.
@@ -166,6 +177,7 @@ pub fn all() -> &'static [&'static dyn Scene] {
         &near_plane::NearPlane,
         &ball::Ball,
         &fovea::Fovea,
+        &hud::Hud,
     ]
 }
 

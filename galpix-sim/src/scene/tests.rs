@@ -30,7 +30,7 @@ fn names_are_found_and_fit_for_a_script() {
         assert_eq!(find(name).map(|found| found.about()), Some(scene.about()));
         assert!(!scene.about().contains('\n'));
     }
-    assert_eq!(all().len(), 11);
+    assert_eq!(all().len(), 12);
     assert!(find("Still").is_none());
 }
 

@@ -7,6 +7,8 @@ use galpix_core::tally::Tally;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::layered::Layers;
+
 /// Everything that was written, with the hash of every file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Manifest {
@@ -23,7 +25,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame or inpaint.
+    /// step, resolve, edge, fill, frame, inpaint or layers.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -68,6 +70,8 @@ pub enum Content {
     Frame(Frames),
     /// What is painted after a frame.
     Inpaint(Inpaint),
+    /// Whole frames of several layers.
+    Layers(Layers),
 }
 
 impl Content {
@@ -81,6 +85,7 @@ impl Content {
             Self::Fill(_) => "fill",
             Self::Frame(_) => "frame",
             Self::Inpaint(_) => "inpaint",
+            Self::Layers(_) => "layers",
         }
     }
 }

@@ -11,9 +11,9 @@ use galpix_core::layout::{Flat565, Full, Lanes, Layout, Shaded, Still, Velocity5
 use galpix_core::rounding::Rounding;
 
 use super::case::{Case, Content, GridSize};
-use super::inpaint;
 use super::maps::{Picture, Random};
 use super::run::{self, Model, Plan, RunError};
+use super::{inpaint, layers};
 
 /// Frames of a frame case.
 const FRAMES: u32 = 5;
@@ -133,6 +133,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
         threshold_cases(&mut cases, seed, model)?;
     }
     cases.extend(inpaint::cases(seed, &models()?)?);
+    cases.extend(layers::cases(seed, &models()?)?);
     Ok(cases)
 }
 

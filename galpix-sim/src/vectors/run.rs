@@ -23,6 +23,7 @@ use galpix_core::tally::Tally;
 
 use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Resolve, Setting, Step};
 use super::hash;
+use super::layered::{Hidden, layered};
 use super::maps::{Picture, Random, size, words};
 
 /// Why a case could not be made.
@@ -66,6 +67,9 @@ pub struct Paint {
     pub edges: bool,
 }
 
+/// Frames of some layers.
+type RunLayers = fn(Bits, &Plan, &[Hidden], &mut Random) -> Result<Content, RunError>;
+
 /// A layout under a budget, and what can be run with it.
 #[derive(Clone, Copy)]
 pub struct Model {
@@ -77,13 +81,23 @@ pub struct Model {
     stages: fn(Bits, &Plan, &mut Random) -> Result<[Content; 3], RunError>,
     frames: fn(Bits, &Plan, &mut Random) -> Result<Content, RunError>,
     painted: fn(Bits, &Plan, &Paint, &mut Random) -> Result<Content, RunError>,
+    /// With one to three layers beside the base.
+    layered: [RunLayers; 3],
 }
 
 impl Model {
     /// A layout under a budget.
     pub fn of<L: Layout>(name: &'static str, bits: Bits) -> Result<Self, RunError> {
         let depth_bits = Chosen::<L>::new(bits)?.record().depth().bits.into();
-        Ok(Self { name, depth_bits, bits, stages: stages::<L>, frames: frames::<L>, painted: painted::<L> })
+        Ok(Self {
+            name,
+            depth_bits,
+            bits,
+            stages: stages::<L>,
+            frames: frames::<L>,
+            painted: painted::<L>,
+            layered: [layered::<L, 1>, layered::<L, 2>, layered::<L, 3>],
+        })
     }
 
     /// Resolve, edge and fill of one frame.
@@ -99,6 +113,11 @@ impl Model {
     /// One frame, and what is painted after it.
     pub fn painted(&self, plan: &Plan, paint: &Paint, random: &mut Random) -> Result<Content, RunError> {
         (self.painted)(self.bits, plan, paint, random)
+    }
+
+    /// Frames of a base and one to three layers beside it.
+    pub fn layered(&self, plan: &Plan, hidden: &[Hidden], random: &mut Random) -> Result<Content, RunError> {
+        self.layered[hidden.len() - 1](self.bits, plan, hidden, random)
     }
 }
 
@@ -117,28 +136,31 @@ pub fn step(component: Component, rounding: Rounding, steps: Vec<(u32, i32, i32,
 }
 
 /// Memory for a map and what belongs to it.
-struct Lent {
+pub struct Lent {
     starts: Vec<u32>,
     grid: GridSize,
 }
 
 impl Lent {
-    fn new(grid: GridSize) -> Self {
+    /// For a map of this size.
+    pub fn new(grid: GridSize) -> Self {
         Self { starts: vec![0; size(&grid).1 as usize], grid }
     }
 
-    fn grid(&mut self) -> Result<Grid<'_>, SetupError> {
+    /// The map's grid.
+    pub fn grid(&mut self) -> Result<Grid<'_>, SetupError> {
         let GridSize { width, height, left, right, top, bottom } = self.grid;
         Grid::new(width, height, Wings { left, right, top, bottom }, &mut self.starts)
     }
 }
 
 /// All planes of a map, one after the other.
-fn planes<L: Layout>(map: &Galpixmap<'_, L, Chosen<L>>) -> Vec<u32> {
+pub fn planes<L: Layout>(map: &Galpixmap<'_, L, Chosen<L>>) -> Vec<u32> {
     (0..).map_while(|word| map.plane(word)).flatten().copied().collect()
 }
 
-fn setting<L: Layout>(bits: Bits, record: &Record, grid: GridSize) -> Setting {
+/// What all cases over a map have.
+pub fn setting<L: Layout>(bits: Bits, record: &Record, grid: GridSize) -> Setting {
     let colour = match L::Colour::BITS {
         24 => "rgb888",
         16 => "rgb565",

@@ -92,6 +92,7 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
             ("after", inpaint.after.clone()),
             ("map", inpaint.map.clone()),
         ]),
+        Content::Layers(layers) => layers.arrays(),
         Content::Frame(frames) => {
             let first = ("front".to_owned(), frames.front.clone());
             let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));

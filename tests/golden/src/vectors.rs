@@ -9,6 +9,10 @@ mod choice;
 mod hash;
 #[path = "../../../galpix-sim/src/vectors/inpaint.rs"]
 mod inpaint;
+#[path = "../../../galpix-sim/src/vectors/layered.rs"]
+mod layered;
+#[path = "../../../galpix-sim/src/vectors/layers.rs"]
+mod layers;
 #[path = "../../../galpix-sim/src/vectors/maps.rs"]
 mod maps;
 #[path = "../../../galpix-sim/src/vectors/run.rs"]

@@ -12,4 +12,5 @@ mod hidden;
 mod hostile;
 mod manifest;
 mod maps;
+mod overlay;
 mod passes;

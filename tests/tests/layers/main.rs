@@ -1,5 +1,11 @@
 //! Layers against what they are made of: maps that move apart, and the smallest by (class, depth, layer) in each cell.
 
+mod engine;
+mod holes;
+mod model;
+mod random;
+mod reference;
+
 use fixed::types::I32F32;
 use galpix_core::budget::{Bits, Demand};
 use galpix_core::edge;

@@ -1,0 +1,109 @@
+//! The disocclusion map beside the propagation of the same map, in one run.
+//!
+//! ```sh
+//! cargo run --release -p galpix-core --example disocclusion                              # 1024x1024, 15 rounds
+//! taskset -c 1 cargo run --release -p galpix-core --example disocclusion -- 512x512 31   # pinned to a core
+//! ```
+//!
+//! `x faster` is the time of the sweep (propagation and resolution of one frame) divided by that of the contender. What the other
+//! columns mean is said in `benches/common/race.rs`.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use std::cell::RefCell;
+use std::hint::black_box;
+use std::process::ExitCode;
+use std::rc::Rc;
+
+use common::race::{Contender, arguments, race, table};
+use common::scene::{Motion, samples};
+use common::{Maps, Panel, PanelVelocity};
+use galpix_core::disocclusion::{Reach, cover, map, mark};
+use galpix_core::edge;
+use galpix_core::galpixel::{Profile, Static};
+use galpix_core::layout::{Flat565, Full, Layout, Velocity565};
+use galpix_core::sweep::sweep;
+
+/// What the others are measured against.
+const SWEEP: &str = "sweep";
+/// Frames until the next update.
+const FRAMES: u32 = 16;
+
+fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contender>, layout: &str, size: (u32, u32)) {
+    for motion in Motion::ALL {
+        let ((width, height), group) = (size, format!("{layout} {}", motion.name()).leak());
+        let samples = samples(width, height, motion);
+        let maps = Rc::new(RefCell::new(Maps::<L, _>::new(width, height, Static::<P>::new(), &samples)));
+        let cells = (width * height) as usize;
+        let (bytes, reach, tally) = {
+            let front = &maps.borrow().front;
+            let record = front.record();
+            let reach = Reach::new(FRAMES, record.depth().bits.into());
+            (record.bytes() * cells, reach, map(front, &mut vec![0; cells], &reach))
+        };
+        println!(
+            "{group}: {} edges, {:.2} % of the cells are covered, {} without end",
+            tally.edges,
+            100.0 * f64::from(tally.covered) / cells as f64,
+            tally.endless
+        );
+        let mut put = |what: &str, mut run: Box<dyn FnMut(&mut Maps<L, Static<P>>)>| {
+            let maps = Rc::clone(&maps);
+            let run = Box::new(move || run(&mut maps.borrow_mut()));
+            contenders.push(Contender::new(what, &*group, bytes, Box::new(|| {}), run));
+        };
+        put(
+            SWEEP,
+            Box::new(|maps| {
+                black_box(sweep(&maps.front, &mut maps.back, &mut [], maps.settings.rounding, 1));
+            }),
+        );
+        put(
+            "sweep with winners",
+            Box::new(|maps| {
+                let winners = &mut *maps.scratch.winners;
+                black_box(sweep(&maps.front, &mut maps.back, winners, maps.settings.rounding, 1));
+            }),
+        );
+        let mut extents = vec![0; cells];
+        put(
+            "disocclusion: mark",
+            Box::new(move |maps| {
+                black_box(mark(&maps.front, &mut extents, &reach));
+            }),
+        );
+        let mut extents = vec![0; cells];
+        put(
+            "disocclusion: map",
+            Box::new(move |maps| {
+                black_box(map(&maps.front, &mut extents, &reach));
+            }),
+        );
+        let mut line = vec![0; width as usize];
+        put(
+            "disocclusion: cover",
+            Box::new(move |maps| {
+                let mut mask = vec![0; edge::words(maps.front.grid())];
+                black_box(cover(&maps.front, &mut line, &mut mask, &reach));
+            }),
+        );
+    }
+}
+
+fn main() -> ExitCode {
+    let ((width, height), rounds) = match arguments() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    let mut contenders = Vec::new();
+    enter::<Full, Panel>(&mut contenders, "Full", (width, height));
+    enter::<Flat565, Panel>(&mut contenders, "Flat565", (width, height));
+    enter::<Velocity565, PanelVelocity>(&mut contenders, "Velocity565", (width, height));
+    race(&mut contenders, width * height, rounds);
+    table(&contenders, width * height, SWEEP);
+    ExitCode::SUCCESS
+}

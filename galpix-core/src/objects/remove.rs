@@ -1,0 +1,53 @@
+//! The galpixels of a tag, found and made empty.
+
+use core::ops::Range;
+
+use crate::galpixel::{Budget, Class};
+use crate::galpixmap::Galpixmap;
+use crate::layout::Layout;
+use crate::record::MAX_WORDS;
+
+/// Cells that are looked at once: as many as a word has bits.
+const RUN: u32 = 32;
+
+/// Makes every cell with this tag empty, whatever its class; how many there were. Their colours stay, as the display shows
+/// what was there until something else is put there.
+pub(super) fn by_tag<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, tag: u32) -> u32 {
+    let budget = map.budget();
+    let record = budget.record();
+    let cells = map.grid().cells();
+    let (mut removed, mut start) = (0, 0);
+    while start < cells {
+        let end = cells.min(start + RUN);
+        let found = tagged(map, start as usize..end as usize, tag);
+        if found != 0 {
+            for cell in start..end {
+                if found >> (cell - start) & 1 != 0 {
+                    let mut empty = [0; MAX_WORDS];
+                    record.class().set(&mut empty, Class::Empty as u32);
+                    record.colour().set(&mut empty, map.colour(cell));
+                    map.put(cell, &empty);
+                    removed += 1;
+                }
+            }
+        }
+        start = end;
+    }
+    removed
+}
+
+/// A bit for each of at most [`RUN`] cells: whether it holds a galpixel or debris of this tag.
+#[inline(always)]
+fn tagged<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, cells: Range<usize>, tag: u32) -> u32 {
+    let record = map.record();
+    let plane = |word: usize| map.planes().get(word).and_then(|plane| plane.get(cells.clone())).unwrap_or_default();
+    let (class_word, _) = record.class().words();
+    let (upper, lower) = record.tag().words();
+    let (class, field) = (record.class().extract(), record.tag().extract());
+    let mut found = 0;
+    for (lane, ((&top, &upper), &lower)) in plane(class_word).iter().zip(plane(upper)).zip(plane(lower)).enumerate() {
+        let there = class.unsigned(top, top) != Class::Empty as u32;
+        found |= ((there & (field.unsigned(upper, lower) == tag)) as u32) << lane;
+    }
+    found
+}

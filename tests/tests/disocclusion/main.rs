@@ -1,0 +1,12 @@
+//! The disocclusion map against brute force, against the algorithms as printed, and its forms against each other.
+//!
+//! ```sh
+//! cargo test --locked --workspace --all-features --test disocclusion -- --nocapture    # prints what docs/disocclusion.md cites
+//! ```
+
+mod forms;
+mod literal;
+mod printed;
+mod surfaces;
+mod tiny;
+mod two;
