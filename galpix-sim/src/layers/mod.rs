@@ -42,6 +42,7 @@ pub fn ways(separation: f64) -> Vec<Way> {
         Way { kind: Kind::Second { separation: 0.0 }, ..whole },
         Way { arrangement: Arrangement::Nearer, ..whole },
         whole,
+        Way { kind: Kind::Ddoc { radius: RADIUS }, arrangement: Arrangement::Nearer, ..whole },
         Way { kind: Kind::Ddoc { radius: RADIUS }, ..whole },
         Way { kind: Kind::Unlimited, ..whole },
     ];
