@@ -133,29 +133,20 @@ impl Bound {
         if let Some([one, other]) = of.saturating {
             return self.most_in_steps(one, other, slack);
         }
-        // The steps are first, first + 2 change, first + 4 change, ...
+        // The steps are first, first + 2 change, first + 4 change, ... The largest sum is the first or the last, unless steps that went
+        // ahead go back at the end.
         let (change, last) = (of.change, self.frames - 1);
         let first = (of.velocity << 1) + change + slack;
-        if change == 0 {
-            return first.max(times(first, self.frames));
+        let changed = times(change, last);
+        if first > 0 && first + (changed << 1) < 0 {
+            return vertex(first, change, self.frames);
         }
-        let at_end = times(first + times(change, last), self.frames);
-        // Hollow: the largest sum is the first or the last. Arched: the last one if no step goes back.
-        if change > 0 {
-            return at_end.max(first);
-        }
-        if first + (times(change, last) << 1) >= 0 {
-            return at_end;
-        }
-        if first <= 0 { first } else { vertex(first, change, self.frames) }
+        first.max(times(first + changed, self.frames))
     }
 
     /// Whether a velocity leaves its field within `steps` frames.
     #[inline(always)]
     fn saturates(&self, of: Motion, steps: u32) -> bool {
-        if of.acceleration == 0 {
-            return false;
-        }
         let velocity = i64::from(of.velocity) + times(i64::from(of.acceleration), steps);
         let unused = 64 - self.scale.velocity_bits.clamp(1, 32);
         velocity << unused >> unused != velocity
