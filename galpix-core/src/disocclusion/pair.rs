@@ -101,11 +101,16 @@ impl Rule {
         let mut uncovered = Uncovered::default();
         let ahead = along.between(second_along, first_along);
         let aside = across.between(second_across, first_across);
-        let (gap, overlap) = (along.cells(&ahead), along.cells(&ahead.reversed()));
+        let gap = along.cells(&ahead);
+        let opens = gap > 0 && (!one_surface || along.parts(&ahead));
+        let may_end = self.ends && !one_surface && farther != 0;
+        if !opens && !may_end {
+            return uncovered;
+        }
         // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
         let (onwards, backwards) = (across.cells(&aside), across.cells(&aside.reversed()));
         // What the nearer one uncovers is behind itself: it is not handed on to a farther one that moves apart from it.
-        if self.ends && !one_surface && farther != 0 && (gap | overlap | onwards | backwards) >= APART {
+        if may_end && ((gap | onwards | backwards) >= APART || along.cells(&ahead.reversed()) >= APART) {
             let (behind_second, behind_first) = if ALONG == 0 {
                 (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
             } else {
@@ -113,7 +118,7 @@ impl Rule {
             };
             if farther > 0 { uncovered.second = behind_second } else { uncovered.first = behind_first }
         }
-        if gap == 0 || one_surface && !along.parts(&ahead) {
+        if !opens {
             return uncovered;
         }
         uncovered.opens = true;

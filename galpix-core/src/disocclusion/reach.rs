@@ -118,7 +118,7 @@ impl Bound {
     pub fn together(&self) -> [i32; 2] {
         // 2 |dv| n + |da| n² <= 2^velocity_frac + 2^(velocity_frac - 1) < 2^(velocity_frac + 1) for n <= 2^log; and velocities that
         // saturate come no farther apart than those that do not.
-        let log = 32 - self.frames.saturating_sub(1).leading_zeros();
+        let log = (0..8).filter(|log| self.frames > 1 << log).count() as u32;
         let velocity = self.scale.velocity_frac.checked_sub(1 + log);
         let acceleration = self.scale.velocity_frac.checked_sub(1 + 2 * log + self.scale.acceleration_up);
         [velocity, acceleration].map(|power| match power {
@@ -178,9 +178,9 @@ fn vertex(first: i64, change: i64, frames: u32) -> i64 {
     let (mut sum, mut step, mut left) = (0i64, first, frames);
     for power in (0..8).rev() {
         // 2^power steps more, if they are there and the last of them goes ahead.
-        let last = step + (((change << power) - change) << 1);
+        let last = step - (change << 1) + (change << (power + 1));
         if left >> power != 0 && last > 0 {
-            sum += (step << power) + (((change << power) - change) << power);
+            sum += ((step - change) << power) + (change << (power << 1));
             step += change << (power + 1);
             left -= 1 << power;
         }
