@@ -169,11 +169,17 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 
     /// Looks at the flagged pairs of neighbours in a row, of which the left ones are in the columns `columns`.
     fn pairs_in_row(&mut self, flags: &[u32; RUN], row: u32, columns: Range<u32>, here: &mut [u32]) {
-        for x in flagged(flags, columns) {
-            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
-            let uncovered = self.uncovered::<0>(&one, &other);
-            self.raise(here, x, uncovered.first);
-            self.raise(here, x + 1, uncovered.second);
+        let mut start = columns.start;
+        for eight in flags.as_chunks::<8>().0 {
+            if any(eight) {
+                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
+                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
+                    let uncovered = self.uncovered::<0>(&one, &other);
+                    self.raise(here, x, uncovered.first);
+                    self.raise(here, x + 1, uncovered.second);
+                }
+            }
+            start += 8;
         }
     }
 
@@ -187,11 +193,17 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         next: &mut [u32],
     ) {
         let [row, below] = rows;
-        for x in flagged(flags, columns) {
-            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
-            let uncovered = self.uncovered::<1>(&one, &other);
-            self.raise(here, x, uncovered.first);
-            self.raise(next, x, uncovered.second);
+        let mut start = columns.start;
+        for eight in flags.as_chunks::<8>().0 {
+            if any(eight) {
+                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
+                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
+                    let uncovered = self.uncovered::<1>(&one, &other);
+                    self.raise(here, x, uncovered.first);
+                    self.raise(next, x, uncovered.second);
+                }
+            }
+            start += 8;
         }
     }
 
@@ -234,12 +246,8 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     }
 }
 
-/// The columns whose lane is flagged.
+/// Whether any lane is flagged.
 #[inline(always)]
-fn flagged(flags: &[u32; RUN], columns: Range<u32>) -> impl Iterator<Item = u32> {
-    let (eights, _) = flags.as_chunks::<8>();
-    let starts = (columns.start..).zip(0..).map(|(first, block)| first + 7 * block);
-    eights.iter().zip(starts).filter(|(flags, _)| flags.iter().fold(0, |any, flag| any | *flag) != 0).flat_map(
-        move |(flags, start)| flags.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0).map(|(_, x)| x),
-    )
+fn any(flags: &[u32; 8]) -> bool {
+    flags.iter().fold(0, |any, flag| any | flag) != 0
 }

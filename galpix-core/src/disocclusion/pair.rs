@@ -14,6 +14,9 @@ const FARTHEST: i32 = i32::MAX;
 /// The largest separation: even the last key is nearer than [`FARTHEST`] by as much.
 pub(crate) const WIDEST_SEPARATION: u32 = 1 << 30;
 
+/// Cells by which two surfaces get apart so far that they do not belong together. A power of two.
+const APART: u32 = 2;
+
 /// What is asked of a galpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Body {
@@ -101,27 +104,28 @@ impl Rule {
         let mut uncovered = Uncovered::default();
         let ahead = along.between(second_along, first_along);
         let aside = across.between(second_across, first_across);
-        let [behind, back] = [ahead.reversed(), aside.reversed()];
+        let gap = along.cells(&ahead);
+        let opens = gap > 0 && (!one_surface || self.tears && along.parts(&ahead));
+        let may_end = self.ends && !one_surface && farther != 0;
+        if !opens && !may_end {
+            return uncovered;
+        }
+        // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
+        let (onwards, backwards) = (across.cells(&aside), across.cells(&aside.reversed()));
         // What the nearer one uncovers is behind itself: it is not handed on to a farther one that moves apart from it.
-        let two_surfaces = !one_surface && farther != 0;
-        if self.ends
-            && two_surfaces
-            && (along.parts(&behind) || along.parts(&ahead) || across.parts(&aside) || across.parts(&back))
-        {
-            let (onwards, backwards) = if ALONG == 0 {
+        if may_end && ((gap | onwards | backwards) >= APART || along.cells(&ahead.reversed()) >= APART) {
+            let (behind_second, behind_first) = if ALONG == 0 {
                 (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
             } else {
                 (shut::<DOWNWARDS>(), shut::<UPWARDS>())
             };
-            if farther > 0 { uncovered.second = onwards } else { uncovered.first = backwards }
+            if farther > 0 { uncovered.second = behind_second } else { uncovered.first = behind_first }
         }
-        let gap = along.cells(&ahead);
-        if gap == 0 || one_surface && !(self.tears && along.parts(&ahead)) {
+        if !opens {
             return uncovered;
         }
         uncovered.opens = true;
-        // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
-        let (onwards, backwards) = (across.cells(&aside) + 1, across.cells(&back) + 1);
+        let (onwards, backwards) = (onwards + 1, backwards + 1);
         const NO_END: u32 = Extents::NO_END as u32;
         uncovered.endless = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
         let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(NO_END) as u8);

@@ -118,7 +118,7 @@ impl Bound {
     pub fn together(&self) -> [i32; 2] {
         // 2 |dv| n + |da| n² <= 2^velocity_frac + 2^(velocity_frac - 1) < 2^(velocity_frac + 1) for n <= 2^log; and velocities that
         // saturate come no farther apart than those that do not.
-        let log = 32 - self.frames.saturating_sub(1).leading_zeros();
+        let log = (0..8).filter(|log| self.frames > 1 << log).count() as u32;
         let velocity = self.scale.velocity_frac.checked_sub(1 + log);
         let acceleration = self.scale.velocity_frac.checked_sub(1 + 2 * log + self.scale.acceleration_up);
         [velocity, acceleration].map(|power| match power {
@@ -133,29 +133,20 @@ impl Bound {
         if let Some([one, other]) = of.saturating {
             return self.most_in_steps(one, other, slack);
         }
-        // The steps are first, first + 2 change, first + 4 change, ...
+        // The steps are first, first + 2 change, first + 4 change, ... The largest sum is the first or the last, unless steps that went
+        // ahead go back at the end.
         let (change, last) = (of.change, self.frames - 1);
         let first = (of.velocity << 1) + change + slack;
-        if change == 0 {
-            return first.max(times(first, self.frames));
+        let changed = times(change, last);
+        if first > 0 && first + (changed << 1) < 0 {
+            return vertex(first, change, self.frames);
         }
-        let at_end = times(first + times(change, last), self.frames);
-        // Hollow: the largest sum is the first or the last. Arched: the last one if no step goes back.
-        if change > 0 {
-            return at_end.max(first);
-        }
-        if first + (times(change, last) << 1) >= 0 {
-            return at_end;
-        }
-        if first <= 0 { first } else { vertex(first, change, self.frames) }
+        first.max(times(first + changed, self.frames))
     }
 
     /// Whether a velocity leaves its field within `steps` frames.
     #[inline(always)]
     fn saturates(&self, of: Motion, steps: u32) -> bool {
-        if of.acceleration == 0 {
-            return false;
-        }
         let velocity = i64::from(of.velocity) + times(i64::from(of.acceleration), steps);
         let unused = 64 - self.scale.velocity_bits.clamp(1, 32);
         velocity << unused >> unused != velocity
@@ -187,9 +178,9 @@ fn vertex(first: i64, change: i64, frames: u32) -> i64 {
     let (mut sum, mut step, mut left) = (0i64, first, frames);
     for power in (0..8).rev() {
         // 2^power steps more, if they are there and the last of them goes ahead.
-        let last = step + (((change << power) - change) << 1);
+        let last = step - (change << 1) + (change << (power + 1));
         if left >> power != 0 && last > 0 {
-            sum += (step << power) + (((change << power) - change) << power);
+            sum += ((step - change) << power) + (change << (power << 1));
             step += change << (power + 1);
             left -= 1 << power;
         }

@@ -130,8 +130,9 @@ impl Reference<'_> {
             let [exactly, _] = self.ahead(component, one, other);
             self.reach.frames > 0 && exactly >= 2i128 << self.record.scales[component].velocity_frac
         };
-        let apart = [along, across].into_iter().any(|component| {
-            parts(component, one[component], other[component]) || parts(component, other[component], one[component])
+        let apart = [0, 1].into_iter().any(|component| {
+            let [one, other] = [one[component], other[component]];
+            self.cells(component, one, other) >= 2 || self.cells(component, other, one) >= 2
         });
         let closes = !self.reach.through && !one_surface && apart;
         let shut = [closes && farther < 0, closes && farther > 0];

@@ -106,7 +106,9 @@ fn check_scene<L: Layout>(scene: &Scene<L>, frames: u32, masks: impl Fn(u16) -> 
     let mut count = Count::default();
     with_grid(|grid| {
         for mask in (0..=u16::MAX).filter(|&mask| masks(mask)) {
-            for border in [Border::Still, Border::Continues] {
+            // Beyond the border it makes a difference only before what is still.
+            let still = if scene.far.velocity == [0, 0] { Some(Border::Still) } else { None };
+            for border in still.into_iter().chain([Border::Continues]) {
                 let reach = Reach { frames, separation: 1, border, tears: true, through: false };
                 let (covered, tally) = memory.covered(grid, scene.budget, words, mask, &reach);
                 let open = paths.iter().flatten().fold(0, |open, &now| open | uncovered(mask, now, border));
