@@ -81,7 +81,7 @@ pub(crate) const fn larger(one: u32, other: u32) -> u32 {
     const TOPS: u32 = !EXTENTS;
     // No extent has the top bit of its byte: it stays set where the one is not smaller.
     let not_smaller = (one | TOPS).wrapping_sub(other & EXTENTS) & TOPS;
-    let mask = not_smaller.wrapping_sub(not_smaller >> 7);
+    let mask = TOPS.wrapping_sub(not_smaller >> 7) ^ TOPS;
     one & (mask | TOPS) | other & (EXTENTS & !mask)
 }
 

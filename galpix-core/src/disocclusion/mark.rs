@@ -11,13 +11,13 @@ use super::{Border, Reach, Tally};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use crate::record::{Field, Record};
+use crate::record::{Extract, Field, Record};
 use crate::sweep::VECTORS;
 
 /// No pass whose extents stay in the rows.
 pub(crate) const NO_PASS: u32 = u32::MAX;
 
-/// Neighbours that are looked at once.
+/// Neighbours that are looked at once. A power of two.
 const RUN: usize = if VECTORS { 64 } else { 8 };
 
 /// The words of a run of cells that decide whether neighbours go pair by pair: of each field the word of its upper part, and of what spills.
@@ -50,7 +50,7 @@ impl<'l> Lanes<'l> {
     /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it.
     #[inline(always)]
     fn key<L: Layout, B: Budget<L>>(&self, record: &Record, lane: usize) -> u32 {
-        let [depth, spill] = self.depth;
+        let ([depth, spill], lane) = (self.depth, lane & (RUN - 1));
         match record.key_field() {
             Some(key) if B::FIXED => key.extract().unsigned(depth[lane], depth[lane]),
             _ => {
@@ -59,6 +59,13 @@ impl<'l> Lanes<'l> {
             }
         }
     }
+}
+
+/// A field of a lane.
+#[inline(always)]
+fn signed(field: Extract, [upper, lower]: [&[u32; RUN]; 2], lane: usize) -> i32 {
+    let lane = lane & (RUN - 1);
+    field.signed(upper[lane], lower[lane])
 }
 
 /// What is done with each pair of a map.
@@ -138,8 +145,8 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     /// `one` and from `other` on; all are flagged where the map ends before the run does.
     #[inline(always)]
     fn compare<const ALONG: usize>(&self, one: u32, other: u32, flags: &mut [u32; RUN]) {
-        let lanes = [one, other].map(|cell| Lanes::at::<L, B, ALONG>(self.front, cell));
-        let [Some(one), Some(other)] = lanes else {
+        let one = Lanes::at::<L, B, ALONG>(self.front, one);
+        let (Some(one), Some(other)) = (one, Lanes::at::<L, B, ALONG>(self.front, other)) else {
             *flags = [1; RUN];
             return;
         };
@@ -156,11 +163,11 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
             // Keys of empty cells say nothing.
             let mut look = apart as u32 & 1 << 31 | (key ^ other_key) >> depth_bits;
             if L::LANES.velocity {
-                let [one, other] = [&one, &other].map(|lanes| v.signed(lanes.v[0][lane], lanes.v[1][lane]));
+                let (one, other) = (signed(v, one.v, lane), signed(v, other.v, lane));
                 look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
             }
             if L::LANES.acceleration {
-                let [one, other] = [&one, &other].map(|lanes| a.signed(lanes.a[0][lane], lanes.a[1][lane]));
+                let (one, other) = (signed(a, one.a, lane), signed(a, other.a, lane));
                 look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
             }
             *flag = look;

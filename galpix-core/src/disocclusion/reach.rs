@@ -176,7 +176,9 @@ impl Bound {
 #[inline(always)]
 fn vertex(first: i64, change: i64, frames: u32) -> i64 {
     let (mut sum, mut step, mut left) = (0i64, first, frames);
-    for power in (0..8).rev() {
+    // As many powers as the frames have bits: a number that is not known before, so that no shifts become products.
+    let powers = (0..8).filter(|power| frames >> power != 0).count() as u32;
+    for power in (0..powers).rev() {
         // 2^power steps more, if they are there and the last of them goes ahead.
         let last = step - (change << 1) + (change << (power + 1));
         if left >> power != 0 && last > 0 {
