@@ -36,10 +36,12 @@ impl Splat {
     #[inline(always)]
     #[must_use]
     pub fn distance(&self, place: [i32; 2]) -> i32 {
-        let [x, y] = [0, 1].map(|axis: usize| {
-            let from = place[axis].wrapping_sub(i32::from(self.cell[axis]) << FRACTION_BITS);
-            from.wrapping_mul(i32::from(self.direction[axis]))
-        });
+        // No index that is known at run time only.
+        let (([x, y], [column, row]), [towards_x, towards_y]) = ((place, self.cell), self.direction);
+        let along = |coordinate: i32, centre: u16, towards: i16| {
+            coordinate.wrapping_sub(i32::from(centre) << FRACTION_BITS).wrapping_mul(i32::from(towards))
+        };
+        let (x, y) = (along(x, column, towards_x), along(y, row, towards_y));
         x.wrapping_add(y) >> direction::FRACTION_BITS
     }
 
@@ -144,7 +146,8 @@ pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], spl
         around(grid, owners, splat, |[dx, dy], owner| {
             let closer = match splats.get(owner.wrapping_sub(1) as usize) {
                 Some(other) => {
-                    let [x, y] = [0, 1].map(|axis: usize| i32::from(splat.cell[axis]) - i32::from(other.cell[axis]));
+                    let ([x, y], [other_x, other_y]) = (splat.cell.map(i32::from), other.cell.map(i32::from));
+                    let (x, y) = (x - other_x, y - other_y);
                     dx * dx + dy * dy < (x + dx) * (x + dx) + (y + dy) * (y + dy)
                 }
                 None => true,
@@ -169,7 +172,8 @@ pub(super) fn shrink(
         let mut radius = splat.radius;
         around(grid, owners, &splat, |from, owner| {
             let Some(other) = splats.get(owner.wrapping_sub(1) as usize) else { return };
-            let [x, y] = [0, 1].map(|axis: usize| i32::from(splat.direction[axis]) * i32::from(other.direction[axis]));
+            let ([x, y], [other_x, other_y]) = (splat.direction.map(i32::from), other.direction.map(i32::from));
+            let (x, y) = (x * other_x, y * other_y);
             if x + y <= settings.conflict << direction::FRACTION_BITS && splat.covers(from, settings.asymmetry) {
                 radius = radius.min(splat.outside(from, settings.asymmetry));
             }
