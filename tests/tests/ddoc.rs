@@ -51,9 +51,14 @@ fn samples_are_moved_back_to_where_they_are() {
             continue;
         }
         moved += usize::from(carried[3] != 0.0 || carried[4] != 0.0);
-        let (own, seen) = (ddoc.image.raster.nearness[index], plain.raster.nearness[v * 192 + u]);
+        let own = ddoc.image.raster.nearness[index];
+        // A place between pixels may be on either side of an outline.
+        let around = |at: usize| at.saturating_sub(1)..192.min(at + 2);
+        let near = around(v).flat_map(|y| around(u).map(move |x| (x, y)));
+        let nearest = near.map(|(x, y)| plain.raster.nearness[y * 192 + x]).fold(0.0, f32::max);
         // Either what the plain image shows there, or something behind it.
-        assert!(own <= seen * 1.1, "{u}, {v}: {own} before {seen}");
+        assert!(own <= nearest * 1.05, "{u}, {v}: {own} before {nearest}");
+        let seen = plain.raster.nearness[v * 192 + u];
         compared += 1;
         other += usize::from(own < 0.9 * seen);
     }
