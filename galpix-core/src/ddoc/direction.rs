@@ -103,6 +103,6 @@ const fn square([x, y]: [i32; 2]) -> u32 {
 /// word.
 const fn fitted([x, y]: [i32; 2]) -> [i32; 2] {
     let bits = 32 - (x.unsigned_abs() | y.unsigned_abs()).leading_zeros();
-    let shift = if bits > 15 { bits - 15 } else { 0 };
+    let shift = bits.saturating_sub(15);
     [x >> shift, y >> shift]
 }

@@ -104,7 +104,7 @@ impl Splat {
     #[must_use]
     pub(super) fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
         let reach = if self.is_visible([x, y]) { self.room(asymmetry) } else { self.radius };
-        (x * x + y * y) as u32 <= reach * reach >> (2 * FRACTION_BITS)
+        (x * x + y * y) as u32 <= (reach * reach) >> (2 * FRACTION_BITS)
     }
 
     /// Whether the cell that is `x` and `y` away from the centre is on the visible side.
