@@ -26,7 +26,7 @@ use crate::record::{Record, Words};
 
 /// All ones for a negative number, else 0.
 #[inline(always)]
-const fn negative(number: i32) -> u32 {
+pub(crate) const fn negative(number: i32) -> u32 {
     (number >> 31) as u32
 }
 

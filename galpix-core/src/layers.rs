@@ -31,7 +31,7 @@ mod shown;
 pub use anchored::{Displacement, displacement_word};
 pub use layer::{Layer, seat_words};
 
-use crate::edge::single::ones;
+use crate::edge::{self, single::ones};
 use crate::error::SetupError;
 use crate::frame::{Controller, Inpainting, Settings, Work, fill_holes, move_on};
 use crate::galpixel::Budget;
@@ -146,11 +146,12 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
     #[must_use]
     pub fn shown(&self) -> [u32; HIDDEN] {
         let mut counts = [0; HIDDEN];
-        for (layer, count) in counts.iter_mut().enumerate() {
-            let (Some(own), Some(above)) = (self.hidden.get(layer), self.hidden.get(layer + 1..)) else { continue };
-            for (index, &seats) in own.seats().iter().enumerate() {
-                let taken = above.iter().fold(0, |taken, layer| taken | layer.seats().get(index).copied().unwrap_or(0));
+        for index in 0..edge::words(self.base.front.grid()) {
+            let mut taken = 0;
+            for (layer, count) in self.hidden.iter().rev().zip(counts.iter_mut().rev()) {
+                let seats = layer.seats().get(index).copied().unwrap_or(0);
                 *count += ones(seats & !taken);
+                taken |= seats;
             }
         }
         counts

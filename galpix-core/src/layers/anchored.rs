@@ -5,7 +5,7 @@
 //! cell of its own plus its displacement, if it is the smallest by (class, depth, source) there. So an image whose samples do not
 //! lie where they are seen, as that of a depth discontinuity occlusion camera, moves like any other.
 
-use crate::constant::{below, empty, merge, merge_word, opaque};
+use crate::constant::{below, empty, merge, merge_word, negative, opaque};
 use crate::frame::Work;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -79,9 +79,15 @@ impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
                     merge(&mut self.stored, source, &words, there);
                 }
                 let [dx, dy] = displacement(*place);
-                let cell = grid.cell(x + dx, y + dy);
-                let within = opaque((cell.is_some() as u32).wrapping_neg());
-                let cell = cell.unwrap_or(0);
+                let (to_x, to_y) = (x + dx, y + dy);
+                let beyond = opaque(
+                    negative(to_x)
+                        | negative(to_y)
+                        | !negative(to_x - grid.width() as i32)
+                        | !negative(to_y - grid.height() as i32),
+                );
+                let within = !beyond;
+                let cell = grid.row(to_y & within as i32).unwrap_or(0) + (to_x & within as i32) as u32;
                 let incumbent = drawn.key_at(cell).unwrap_or(0);
                 let key = resolve::key(record, &words);
                 let challenges = there & within;

@@ -36,12 +36,21 @@ pub(super) fn take<L: Layout, B: Budget<L>>(
             continue;
         }
         let mut nearer = [0; RUN];
-        let keys = base.keys(run.clone()).zip(layer.keys(run.clone()));
         let mut any = 0;
-        for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(keys) {
-            // An empty cell gets no seat, whatever is left in its other fields.
-            *nearer = below(challenger, incumbent.min(empty));
-            any |= *nearer;
+        if VECTORS {
+            let keys = base.keys(run.clone()).zip(layer.keys(run.clone()));
+            for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(keys) {
+                // An empty cell gets no seat, whatever is left in its other fields.
+                *nearer = below(challenger, incumbent.min(empty));
+                any |= *nearer;
+            }
+        } else {
+            // The same cell by cell: a compiler makes a product of a run's length and whether it is there.
+            for (nearer, cell) in nearer.iter_mut().zip(run.start as u32..run.end as u32) {
+                let (incumbent, challenger) = (base.key_at(cell).unwrap_or(0), layer.key_at(cell).unwrap_or(0));
+                *nearer = below(challenger, incumbent.min(empty));
+                any |= *nearer;
+            }
         }
         if work == Work::Constant || any != 0 {
             for (lane, &nearer) in nearer.iter().enumerate() {
@@ -81,13 +90,7 @@ fn exchange<L: Layout, B: Budget<L>>(
     if work == Work::Skipping && !VECTORS {
         for (base, layer) in planes {
             let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };
-            let mut rest = seats;
-            for (base, layer) in base.iter_mut().zip(layer) {
-                if rest & 1 != 0 {
-                    core::mem::swap(base, layer);
-                }
-                rest >>= 1;
-            }
+            exchange_few(base, layer, seats);
         }
         return;
     }
@@ -99,10 +102,27 @@ fn exchange<L: Layout, B: Budget<L>>(
     }
     for (base, layer) in planes {
         let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };
-        for ((base, layer), mask) in base.iter_mut().zip(layer).zip(&masks) {
-            let apart = (*base ^ *layer) & mask;
-            *base ^= apart;
-            *layer ^= apart;
+        exchange_plane(base, layer, &masks);
+    }
+}
+
+/// In one plane, where the masks have ones.
+#[inline(never)]
+fn exchange_plane(base: &mut [u32], layer: &mut [u32], masks: &[u32; RUN]) {
+    for ((base, layer), mask) in base.iter_mut().zip(layer).zip(masks) {
+        let apart = (*base ^ *layer) & mask;
+        *base ^= apart;
+        *layer ^= apart;
+    }
+}
+
+/// In one plane, where bits are set; others are not touched.
+#[inline(never)]
+fn exchange_few(base: &mut [u32], layer: &mut [u32], mut seats: u32) {
+    for (base, layer) in base.iter_mut().zip(layer) {
+        if seats & 1 != 0 {
+            core::mem::swap(base, layer);
         }
+        seats >>= 1;
     }
 }

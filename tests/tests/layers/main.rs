@@ -10,11 +10,12 @@ use fixed::types::I32F32;
 use galpix_core::budget::{Bits, Demand};
 use galpix_core::edge;
 use galpix_core::frame::{Controller, Scratch, Settings, Work};
-use galpix_core::galpixel::{Chosen, Class, Galpixel};
+use galpix_core::galpixel::{Chosen, Class, Galpixel, Profile};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings};
 use galpix_core::layers::{Layer, Layers, seat_words};
 use galpix_core::layout::Full;
+use galpix_tests::profiles::Paper;
 
 type Map<'p> = Galpixmap<'p, Full, Chosen<Full>>;
 
@@ -87,5 +88,30 @@ fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
             let tally = layers.step(&settings);
             assert_eq!((tally.base.holes, tally.base.lost, tally.base.collided), (0, 0, 0));
         }
+    }
+}
+
+/// The table of `docs/layers.md`, from what the engine asks for.
+#[test]
+fn memory_is_as_documented() {
+    let budget = Chosen::<Full>::new(Paper::BITS).expect("the paper's example");
+    let mut rows = ["1 layer", "2 layers", "3 layers", "an anchored layer more"].map(|name| format!("| {name} |"));
+    for (width, height) in [(128, 64), (320, 240), (1024, 1024)] {
+        let mut starts = vec![0; Grid::rows(height, Wings::NONE)];
+        let grid = Grid::new(width, height, Wings::NONE, &mut starts).expect("a grid");
+        let (map, cells) = (Map::words(&grid, budget), grid.cells() as usize);
+        let base = 2 * map + cells + edge::words(&grid);
+        let layer = 2 * map + seat_words(&grid);
+        let anchored = 3 * map + cells + seat_words(&grid);
+        for (row, words) in rows.iter_mut().zip([base, base + layer, base + 2 * layer, anchored]) {
+            let digits = (4 * words).to_string();
+            let groups: Vec<_> = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();
+            *row += &format!(" {} |", groups.join(" "));
+        }
+    }
+    let document = include_str!("../../../docs/layers.md");
+    for row in rows {
+        println!("{row}");
+        assert!(document.lines().any(|line| line == row), "docs/layers.md lacks the row {row}");
     }
 }
