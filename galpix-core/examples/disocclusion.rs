@@ -27,6 +27,8 @@ use galpix_core::sweep::sweep;
 
 /// What the others are measured against.
 const SWEEP: &str = "sweep";
+/// What a contender does with its maps.
+type Run<L, P> = Box<dyn FnMut(&mut Maps<L, Static<P>>)>;
 /// Frames until the next update.
 const FRAMES: u32 = 16;
 
@@ -36,19 +38,21 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
         let samples = samples(width, height, motion);
         let maps = Rc::new(RefCell::new(Maps::<L, _>::new(width, height, Static::<P>::new(), &samples)));
         let cells = (width * height) as usize;
-        let (bytes, reach, tally) = {
+        let (bytes, reach, tally, through) = {
             let front = &maps.borrow().front;
             let record = front.record();
             let reach = Reach::new(FRAMES, record.depth().bits.into());
-            (record.bytes() * cells, reach, map(front, &mut vec![0; cells], &reach))
+            let through = map(front, &mut vec![0; cells], &Reach { through: true, ..reach });
+            (record.bytes() * cells, reach, map(front, &mut vec![0; cells], &reach), through)
         };
         println!(
-            "{group}: {} edges, {:.2} % of the cells are covered, {} are cut off",
+            "{group}: {} edges, {} without end; {:.2} % of the cells are covered, {:.2} % if surfaces are let through",
             tally.edges,
+            tally.endless,
             100.0 * f64::from(tally.covered) / cells as f64,
-            tally.cut
+            100.0 * f64::from(through.covered) / cells as f64
         );
-        let mut put = |what: &str, mut run: Box<dyn FnMut(&mut Maps<L, Static<P>>)>| {
+        let mut put = |what: &str, mut run: Run<L, P>| {
             let maps = Rc::clone(&maps);
             let run = Box::new(move || run(&mut maps.borrow_mut()));
             contenders.push(Contender::new(what, &*group, bytes, Box::new(|| {}), run));
@@ -57,6 +61,13 @@ fn enter<L: Layout + 'static, P: Profile + 'static>(contenders: &mut Vec<Contend
             SWEEP,
             Box::new(|maps| {
                 black_box(sweep(&maps.front, &mut maps.back, &mut [], maps.settings.rounding, 1));
+            }),
+        );
+        put(
+            "sweep with winners",
+            Box::new(|maps| {
+                let winners = &mut *maps.scratch.winners;
+                black_box(sweep(&maps.front, &mut maps.back, winners, maps.settings.rounding, 1));
             }),
         );
         let mut extents = vec![0; cells];

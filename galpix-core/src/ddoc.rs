@@ -5,9 +5,10 @@
 //! layer, that holds both. Where it moves what is a *distortion map*, made from the depths of the plain image, and any
 //! place of the scene is projected by one look-up in it (equation 1).
 //!
-//! 1. [`splat`]: which cells are on an edge, which way the edge faces, and which cells it is to distort (steps 2 to 5)
-//! 2. [`direction`]: the normal of a line through cells, by least squares
-//! 3. [`splat::Splat::full`] and [`splat::Splat::share`]: how far (step 6 and equation 1)
+//! 1. [`edges`]: which cells are on an edge, and which way it faces (step 2)
+//! 2. [`direction`]: the normal of a line through cells, by least squares (step 3)
+//! 3. [`splat`]: which cells each of them is to distort (steps 3 to 5)
+//! 4. [`splat::Splat::full`] and [`splat::Splat::share`]: how far (step 6 and equation 1)
 //!
 //! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/ddoc.md` tells how the paper was read.
 //!
@@ -39,6 +40,7 @@
 //! ```
 
 pub mod direction;
+pub mod edges;
 pub mod splat;
 
 #[cfg(test)]
@@ -78,13 +80,22 @@ pub struct Settings {
     pub threshold: u32,
     /// Cells to each side of an edge's cell among which the line is laid that gives its direction, 1 to 15.
     pub window: u32,
+    /// Directions conflict if the cosine of the angle between them is not above this, in units of 2^-14. 0: from 90 degrees
+    /// on; -2^15 or less: never.
+    pub conflict: i32,
 }
 
 impl Settings {
     /// Settings for depths of `depth_bits` bits: 16 cells, symmetric.
     #[must_use]
     pub const fn for_depth(depth_bits: u32) -> Self {
-        Self { radius: 16, asymmetry: SYMMETRIC, threshold: edge::threshold_for_depth(depth_bits), window: 3 }
+        Self {
+            radius: 16,
+            asymmetry: SYMMETRIC,
+            threshold: edge::threshold_for_depth(depth_bits),
+            window: 3,
+            conflict: 0,
+        }
     }
 
     /// The settings, each within its range.
@@ -99,11 +110,20 @@ impl Settings {
                 value
             }
         }
+        // A little beyond the longest unit vectors' product, which rounding may make larger than 1.
+        const NEVER: i32 = 1 << (direction::FRACTION_BITS + 1);
         Self {
             radius: clamp(self.radius, 1, MOST_RADIUS),
             asymmetry: clamp(self.asymmetry, SYMMETRIC, 255),
             threshold: clamp(self.threshold, 0, i32::MAX as u32),
             window: clamp(self.window, 1, 15),
+            conflict: if self.conflict < -NEVER {
+                -NEVER
+            } else if self.conflict > NEVER {
+                NEVER
+            } else {
+                self.conflict
+            },
         }
     }
 }
@@ -161,7 +181,7 @@ impl<'m> DistortionMap<'m> {
         };
         let settings = settings.clamped();
         let mut tally = Tally::default();
-        let splats = splat::gather(&grid, depths, &settings, owners, splats, &mut tally);
+        let splats = edges::gather(&grid, depths, &settings, owners, splats, &mut tally);
         splat::cast(&grid, &settings, owners, splats);
         splat::shrink(&grid, &settings, owners, splats, &mut tally);
         splat::delete_orphans(&grid, &settings, owners, splats, &mut tally);

@@ -14,7 +14,7 @@
 //!
 //! **Claim.** For two surfaces, each of which moves as a whole, that lie at least [`Reach::separation`] apart: a sample that is hidden behind the near one,
 //! moves like the far one, and is where no galpixel of the map is after any of the frames, was hidden in a cell whose extents are not 0. This holds with
-//! every rounding and with velocities that saturate, as long as no extent is cut off at 255 cells.
+//! every rounding and with velocities that saturate.
 //!
 //! **Memory:** four bytes a cell. **Cost:** some vector operations a cell and some hundred operations a pair that is looked at; additions and
 //! shifts.
@@ -35,7 +35,7 @@ pub use spread::spread;
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
-use mark::{Marker, NO_PASS, Runs};
+use mark::{Marker, NO_PASS};
 
 /// What lies beyond the border of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -64,6 +64,9 @@ pub struct Reach {
     /// the true surface stretches where its galpixels part, and what is behind is not seen. Without tears what is claimed above holds for
     /// pairs of two surfaces alone, and tears are left to what fills holes.
     pub tears: bool,
+    /// Whether what a surface uncovers goes through to farther ones that it moves over, beyond its own end. More cells are covered then, also some that a chain
+    /// of three surfaces uncovers; the claim for two needs it not.
+    pub through: bool,
 }
 
 impl Reach {
@@ -71,11 +74,11 @@ impl Reach {
     pub const MOST_FRAMES: u32 = 255;
 
     /// For depths of `depth_bits` bits that are linear in inverse distance or in disparity, as
-    /// [`crate::edge::threshold_for_depth`], and what lies beyond the border still.
+    /// [`crate::edge::threshold_for_depth`], what lies beyond the border still, and surfaces that end.
     #[must_use]
     pub const fn new(frames: u32, depth_bits: u32) -> Self {
         let separation = if depth_bits == 0 { 0 } else { crate::edge::threshold_for_depth(depth_bits) };
-        Self { frames, separation, border: Border::Still, tears: true }
+        Self { frames, separation, border: Border::Still, tears: true, through: false }
     }
 }
 
@@ -85,8 +88,8 @@ impl Reach {
 pub struct Tally {
     /// Pairs of neighbours, or of a cell and what lies beyond the border, of which one leaves.
     pub edges: u32,
-    /// Of these, how many uncover more than 255 cells to a side, and were cut off there.
-    pub cut: u32,
+    /// Of these, how many uncover [`Extents::NO_END`] cells to a side, or more.
+    pub endless: u32,
     /// Cells whose hidden samples may be uncovered; 0 before they are spread.
     pub covered: u32,
 }
@@ -96,22 +99,15 @@ pub struct Tally {
 /// `extents` must have a word for each cell (see [`Extents`]); what it held does not matter. Of cells that are not in it nothing is said.
 pub fn mark<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, extents: &mut [u32], reach: &Reach) -> Tally {
     let mut marker = Marker::new(front, reach);
-    let mut runs = Runs::EMPTY;
     for (&start, y) in front.grid().starts().iter().zip(0..) {
-        mark_row(&mut marker, &mut runs, y, start, extents);
+        mark_row(&mut marker, y, start, extents);
     }
     marker.tally
 }
 
 /// Marks row `y` as far as it is known, and begins the next one.
 #[inline(always)]
-fn mark_row<L: Layout, B: Budget<L>>(
-    marker: &mut Marker<'_, '_, L, B>,
-    runs: &mut Runs,
-    y: u32,
-    start: u32,
-    extents: &mut [u32],
-) {
+fn mark_row<L: Layout, B: Budget<L>>(marker: &mut Marker<'_, '_, L, B>, y: u32, start: u32, extents: &mut [u32]) {
     let width = marker.width() as usize;
     let Some(rest) = extents.get_mut(start as usize..) else { return };
     let Some((here, rest)) = rest.split_at_mut_checked(width) else { return };
@@ -120,16 +116,15 @@ fn mark_row<L: Layout, B: Budget<L>>(
         marker.begin::<NO_PASS>(y, here);
     }
     marker.begin::<NO_PASS>(y + 1, next);
-    marker.rows::<true>(runs, y, here, next);
+    marker.rows::<true>(y, here, next);
 }
 
 /// [`mark`] and [`spread`] together, row by row.
 pub fn map<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, extents: &mut [u32], reach: &Reach) -> Tally {
     let grid = *front.grid();
     let mut marker = Marker::new(front, reach);
-    let mut runs = Runs::EMPTY;
     for (&start, y) in grid.starts().iter().zip(0..) {
-        mark_row(&mut marker, &mut runs, y, start, extents);
+        mark_row(&mut marker, y, start, extents);
         if let Some(row) = extents.get_mut(start as usize..(start + grid.width()) as usize) {
             spread::along(row, u32::MAX);
         }

@@ -79,6 +79,9 @@ impl Rung {
 
 /// What a fill must know beside the map that it fills.
 pub(crate) trait Around {
+    /// The stored form.
+    fn record(&self) -> &Record;
+
     /// What was shown in a cell in the frame before.
     fn before(&self, cell: u32) -> Option<Words>;
 
@@ -87,6 +90,11 @@ pub(crate) trait Around {
 }
 
 impl<L: Layout, B: Budget<L>> Around for Galpixmap<'_, L, B> {
+    #[inline(always)]
+    fn record(&self) -> &Record {
+        Galpixmap::record(self)
+    }
+
     #[inline(always)]
     fn before(&self, cell: u32) -> Option<Words> {
         self.words_at(cell)
@@ -99,9 +107,14 @@ impl<L: Layout, B: Budget<L>> Around for Galpixmap<'_, L, B> {
 }
 
 /// Nothing was shown before.
-pub(crate) struct Nothing;
+pub(crate) struct Nothing<'r>(pub &'r Record);
 
-impl Around for Nothing {
+impl Around for Nothing<'_> {
+    #[inline(always)]
+    fn record(&self) -> &Record {
+        self.0
+    }
+
     #[inline(always)]
     fn before(&self, _cell: u32) -> Option<Words> {
         None
@@ -130,7 +143,6 @@ pub fn fill<L: Layout, B: Budget<L>>(
 }
 
 /// [`fill`], whatever was shown before.
-#[inline(always)]
 pub(crate) fn fill_around<L: Layout, B: Budget<L>>(
     around: &impl Around,
     back: &mut Galpixmap<'_, L, B>,
@@ -159,7 +171,9 @@ pub(crate) fn fill_bullets<L: Layout, B: Budget<L>>(
     tally: &mut Tally,
 ) {
     let starts = back.grid().starts();
-    let mut filler = Filler::new(&Nothing, back, winners, edges, Rung::Bullet, tally);
+    let budget = back.budget();
+    let nothing = Nothing(budget.record());
+    let mut filler = Filler::new(&nothing, back, winners, edges, Rung::Bullet, tally);
     for round in 0..Rung::Bullet.rounds(reach) {
         for (y, &row) in (0..).zip(starts) {
             filler.row(y, row, row, round, false);
@@ -281,8 +295,8 @@ impl<'f, 'q, A: Around, L: Layout, B: Budget<L>> Filler<'f, 'q, A, L, B> {
 
     /// What the rung puts into a cell that is no bullet hole.
     fn unobscured(&mut self, row: u32, x: u32) -> Words {
-        let budget = self.back.budget();
-        let record = budget.record();
+        // Not that of the map that is filled: this one does not change under a compiler's eyes.
+        let record = self.around.record();
         let before = self.around.before(self.before + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.rung >= Rung::Galdebris && known {

@@ -193,12 +193,14 @@ impl<'p, L: Layout, B: Budget<L>> Galpixmap<'p, L, B> {
         })
     }
 
-    /// A field of some cells as two's complement numbers; nothing if they are not all in the map.
+    /// A field of a cell as a two's complement number; 0 outside of the map.
     #[inline(always)]
-    pub(crate) fn signed(&self, field: Field, cells: Range<usize>) -> impl Iterator<Item = i32> {
-        let ((upper, lower), extract) = (field.words(), field.extract());
-        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
-        plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.signed(upper, lower))
+    pub(crate) fn signed(&self, field: Field, cell: u32) -> i32 {
+        let ((upper, lower), cell) = (field.words(), cell as usize);
+        match (self.planes[upper].get(cell), self.planes[lower].get(cell)) {
+            (Some(&upper), Some(&lower)) => field.extract().signed(upper, lower),
+            _ => 0,
+        }
     }
 
     /// Whether some cells are all empty.

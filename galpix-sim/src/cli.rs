@@ -3,6 +3,7 @@
 mod budget;
 mod call;
 mod choices;
+mod ddoc;
 mod demo;
 mod error;
 mod fills;
@@ -75,6 +76,8 @@ enum Command {
     Layers(layers::LayersArguments),
     /// Objects updated at rates of their own against updates of the whole view, at the same number of cells a second
     Graft(graft::Graft),
+    /// Depth images that look around edges: what a frame from beside them lacks, against plain depth images
+    Ddoc(ddoc::Ddoc),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
     /// Says what a source does not need for a position error: lanes, bits, rounding, rung
@@ -103,6 +106,7 @@ pub fn main() -> ExitCode {
         Command::Fills(fills) => fills.run(),
         Command::Layers(layers) => layers.run(),
         Command::Graft(graft) => graft.run(),
+        Command::Ddoc(ddoc) => ddoc.run(),
         Command::Budget(budget) => budget.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),

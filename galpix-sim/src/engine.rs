@@ -1,32 +1,37 @@
 //! The engine over memory of the host: one update in, with layers beside it or without, frames out, with what is needed to judge them.
 
+mod base;
 mod hidden;
+mod load;
 mod origins;
 mod show;
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use fixed::types::I32F32;
 use galpix_core::budget::Bits;
 use galpix_core::error::{BudgetError, SetupError};
-use galpix_core::frame::{Controller, Scratch, Settings, Work};
-use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel};
+use galpix_core::frame::{Settings, Work};
+use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::{Grid, Wings as CoreWings};
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::layout::{Lanes, Layout};
 use galpix_core::overlay::{self, Overlay};
+use galpix_core::scan_out;
 use galpix_core::tally::Tally;
-use galpix_core::{edge, scan_out};
 
 pub use hidden::Beside;
+pub use load::{LoadTally, galpixel, load};
+pub(crate) use load::{core_wings, grid};
 pub use origins::NO_ORIGIN;
 pub use show::Show;
 
 use crate::fill::{Inpaint, Inpainter};
 use crate::picture::Picture;
-use crate::update::{Known, Sample, Update, Wings};
+use crate::update::Update;
+use base::Base;
+use load::load_at;
 use origins::Origins;
 
 /// Layers that can be handed over beside an update.
@@ -56,17 +61,6 @@ pub enum EngineError {
         "{0} layers beside the update are more than the {MAX_BESIDE} that there is room for: leave the farthest out"
     )]
     TooManyLayers(usize),
-}
-
-/// What entered with the update.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-pub struct LoadTally {
-    /// Cells with a galpixel.
-    pub galpixels: u32,
-    /// Cells that start empty because depth or motion is unknown.
-    pub empty: u32,
-    /// Fields that had to be clamped to their range.
-    pub saturated: u32,
 }
 
 /// What a run told beside its frames.
@@ -238,93 +232,6 @@ impl<L: Layout> Engine<L> {
 }
 
 type Visit<'v, L> = &'v mut dyn FnMut(&Frame<'_, L>);
-
-/// The memory of the base.
-struct Base {
-    starts: Vec<u32>,
-    front: Vec<u32>,
-    back: Vec<u32>,
-    winners: Vec<u32>,
-    edges: Vec<u32>,
-}
-
-impl Base {
-    fn new<L: Layout>(update: &Update, budget: Chosen<L>) -> Result<Self, EngineError> {
-        let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
-        let grid = grid(update, &mut starts)?;
-        let words = Galpixmap::<L, _>::words(&grid, budget);
-        let (winners, edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
-        Ok(Self { starts, front: vec![0; words], back: vec![0; words], winners, edges })
-    }
-
-    fn controller<'p, L: Layout>(
-        &'p mut self,
-        update: &Update,
-        budget: Chosen<L>,
-    ) -> Result<Controller<'p, L, Chosen<L>>, EngineError> {
-        let grid = grid(update, &mut self.starts)?;
-        Ok(Controller::new(
-            Galpixmap::new(grid, budget, &mut self.front)?,
-            Galpixmap::new(grid, budget, &mut self.back)?,
-            Scratch { winners: &mut self.winners, edges: &mut self.edges },
-        )?)
-    }
-}
-
-/// The grid of an update.
-pub(crate) fn grid<'g>(update: &Update, starts: &'g mut [u32]) -> Result<Grid<'g>, SetupError> {
-    let (width, height) = (update.display_width() as u32, update.display_height() as u32);
-    Grid::new(width, height, core_wings(update.wings), starts)
-}
-
-/// The wings of an update, as the core has them.
-pub(crate) fn core_wings(wings: Wings) -> CoreWings {
-    let cells = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    CoreWings { left: cells(wings.left), right: cells(wings.right), top: cells(wings.top), bottom: cells(wings.bottom) }
-}
-
-/// Writes the samples of an update into a map, quantised to its budget.
-pub fn load<L: Layout, B: Budget<L>>(update: &Update, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
-    load_at(update, |_| [0.0; 2], map)
-}
-
-/// The same with samples that are not in the middle of their cells.
-fn load_at<L: Layout, B: Budget<L>>(
-    update: &Update,
-    offset: impl Fn(usize) -> [f64; 2],
-    map: &mut Galpixmap<'_, L, B>,
-) -> LoadTally {
-    let mut tally = LoadTally::default();
-    let width = update.width.max(1);
-    for (cell, sample) in update.samples.iter().enumerate() {
-        match sample.known {
-            Known::Motion => tally.galpixels += 1,
-            Known::ColourOnly => tally.empty += 1,
-        }
-        let offset = offset(cell).map(I32F32::saturating_from_num);
-        let galpixel = Galpixel { offset, ..galpixel(sample) };
-        tally.saturated += map.store((cell % width) as i32, (cell / width) as i32, &galpixel).unwrap_or(0);
-    }
-    tally
-}
-
-/// A sample as a galpixel in fixed point: 32 fraction bits, so that the rounding that counts is the budget's.
-#[must_use]
-pub fn galpixel(sample: &Sample) -> Galpixel {
-    if sample.known == Known::ColourOnly {
-        return Galpixel { class: Class::Empty, colour: sample.colour, ..Galpixel::default() };
-    }
-    Galpixel {
-        class: Class::Galpixel,
-        colour: sample.colour,
-        offset: [I32F32::ZERO; 2],
-        depth: I32F32::saturating_from_num(sample.depth),
-        velocity: sample.velocity.map(I32F32::saturating_from_num),
-        acceleration: sample.acceleration.map(I32F32::saturating_from_num),
-        luminosity_rate: I32F32::saturating_from_num(sample.luminosity_rate),
-        tag: u32::from(sample.tag),
-    }
-}
 
 impl<L: Layout> Frame<'_, L> {
     /// What the display shows.

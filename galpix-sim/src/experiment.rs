@@ -271,7 +271,21 @@ fn run_as<L: Layout>(
     })
 }
 
-/// What a source hands over beside its update.
+/// Whether a source has what is wanted behind its first layer.
+///
+/// *Errors:* it has nothing of this kind.
+pub fn check_way(source: &Source, way: Way) -> Result<(), ExperimentError> {
+    if hidden::has(source, way.kind) {
+        return Ok(());
+    }
+    let mend = match (source, way.kind) {
+        (Source::Capture(_), hidden::Kind::Second { .. }) => "add an [update.hidden] to its manifest",
+        _ => "choose a built-in scene, or another kind",
+    };
+    Err(ExperimentError::NothingHidden { source_name: source.name().to_owned(), way: way.name(), mend })
+}
+
+/// What a source hands over.
 ///
 /// *Errors:* a source that has nothing of this kind, a budget that does not fit.
 pub(crate) fn carried<L: Layout>(
@@ -281,13 +295,8 @@ pub(crate) fn carried<L: Layout>(
     bits: Bits,
     frames: u32,
 ) -> Result<Carried, ExperimentError> {
-    let budget = Chosen::<L>::new(bits)?;
-    let mend = match source {
-        Source::Scene(_) => "choose another way",
-        Source::Capture(_) => "add an [update.hidden] to its manifest, or choose another way",
-    };
-    let nothing = || ExperimentError::NothingHidden { source_name: source.name().to_owned(), way: way.name(), mend };
-    hidden::carry(source, update, way, budget, frames)?.ok_or_else(nothing)
+    check_way(source, way)?;
+    Ok(hidden::carry(source, update, way, Chosen::<L>::new(bits)?, frames)?)
 }
 
 /// How the frames of an update are made under a record.

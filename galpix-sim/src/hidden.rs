@@ -4,20 +4,22 @@
 //! scene, capture ─▶ offered (layers of samples) ─▶ cull (the disocclusion map of the first layer) ─▶ carried ─▶ engine
 //! ```
 
+mod arrange;
 mod cull;
+mod layer;
+mod offered;
+mod surfaces;
 
 use galpix_core::galpixel::Chosen;
-use galpix_core::layers::Displacement;
 use galpix_core::layout::Layout;
 use serde::Serialize;
 
 pub use cull::{Culling, culling};
+pub use layer::Layer;
 
-use crate::ddoc::{self, distortion};
-use crate::engine::{Beside, EngineError, NO_ORIGIN, Ran};
+use crate::engine::{EngineError, NO_ORIGIN, Ran};
 use crate::experiment::Source;
-use crate::scene::{self, Peel, Scene};
-use crate::update::{Known, Sample, Update};
+use crate::update::Update;
 
 /// How far a second layer lies behind the first at least, as a part of the depth range.
 pub const SEPARATION: f64 = 1.0 / 64.0;
@@ -50,8 +52,8 @@ pub enum Kind {
 pub enum Arrangement {
     /// The one that is seen. What is behind is in a layer of its own.
     Nearer,
-    /// The one behind, where there is one. What covers something is in a layer of its own: it takes nothing away of what it passes in
-    /// front of, and its bullet holes are closed before anything shines through.
+    /// The one behind, where there is one. A surface that covers something, and leaves some of it, is in a layer of its own: it takes nothing
+    /// away of what it passes in front of, and its bullet holes are closed before anything shines through.
     #[default]
     Farther,
 }
@@ -82,27 +84,11 @@ impl Way {
             Kind::Unlimited => "unlimited",
         };
         let behind = match self.arrangement {
-            Arrangement::Nearer if matches!(self.kind, Kind::Second { .. }) => ", behind",
+            Arrangement::Nearer if self.kind != Kind::None => ", behind",
             _ => "",
         };
         format!("{kind}{behind}{}", if self.culled { ", culled" } else { "" })
     }
-}
-
-/// A layer as it is handed over.
-#[derive(Clone, Debug)]
-pub enum Layer {
-    /// See [`Beside::Moving`].
-    Moving(Update),
-    /// See [`Beside::Anchored`].
-    Anchored {
-        /// The samples, where they are stored.
-        update: Update,
-        /// From there to the cells in which they are seen.
-        displacements: Vec<Displacement>,
-        /// Where in these cells they are.
-        offsets: Vec<[f64; 2]>,
-    },
 }
 
 /// What is handed over.
@@ -161,96 +147,18 @@ impl Carried {
     }
 }
 
-impl Layer {
-    /// Its samples.
-    #[must_use]
-    pub const fn update(&self) -> &Update {
-        match self {
-            Self::Moving(update) | Self::Anchored { update, .. } => update,
-        }
-    }
-
-    fn into_update(self) -> Update {
-        match self {
-            Self::Moving(update) | Self::Anchored { update, .. } => update,
-        }
-    }
-
-    const fn update_mut(&mut self) -> &mut Update {
-        match self {
-            Self::Moving(update) | Self::Anchored { update, .. } => update,
-        }
-    }
-
-    /// As the engine takes it.
-    #[must_use]
-    pub fn beside(&self) -> Beside<'_> {
-        match self {
-            Self::Moving(update) => Beside::Moving(update),
-            Self::Anchored { update, displacements, offsets } => Beside::Anchored { update, displacements, offsets },
-        }
-    }
-
-    /// The cell in which a sample is seen, before anything moves; it may lie outside of the map.
-    fn seen_at(&self, stored: usize) -> Option<usize> {
-        let Self::Anchored { update, displacements, .. } = self else { return Some(stored) };
-        let [dx, dy] = displacements.get(stored).copied()?;
-        let (x, y) = ((stored % update.width) as i64 + i64::from(dx), (stored / update.width) as i64 + i64::from(dy));
-        let inside = (0..update.width as i64).contains(&x) && (0..update.height as i64).contains(&y);
-        inside.then(|| y as usize * update.width + x as usize)
+/// Whether a source knows anything of this kind.
+#[must_use]
+pub fn has(source: &Source, kind: Kind) -> bool {
+    match (source, kind) {
+        (Source::Scene(_), _) | (_, Kind::None) => true,
+        (Source::Capture(capture), Kind::Second { .. }) => capture.hidden.is_some(),
+        (Source::Capture(_), Kind::Ddoc { .. } | Kind::Unlimited) => false,
     }
 }
 
-/// What a source has behind its first layer, or all that it has if that is unlimited; `None` if it has nothing of this kind.
-///
-/// *Errors:* a scene that is too large for a map.
-pub fn offered(source: &Source, kind: Kind) -> Result<Option<Vec<Layer>>, EngineError> {
-    let layers = match (kind, source) {
-        (Kind::None, _) => Vec::new(),
-        (Kind::Second { separation }, Source::Scene(scene)) => {
-            scene::behind(*scene, 0.0, &Peel { layers: 1, separation, backs: true })
-        }
-        (Kind::Unlimited, Source::Scene(scene)) => scene::each(*scene, 0.0),
-        (Kind::Second { separation }, Source::Capture(capture)) => match &capture.hidden {
-            Some(second) => vec![apart(&capture.update, second, separation)],
-            None => return Ok(None),
-        },
-        (Kind::Ddoc { radius }, Source::Scene(scene)) => return Ok(Some(vec![around_edges(*scene, radius)?])),
-        (Kind::Ddoc { .. } | Kind::Unlimited, Source::Capture(_)) => return Ok(None),
-    };
-    Ok(Some(layers.into_iter().map(Layer::Moving).collect()))
-}
-
-/// What a DDOC has of a scene that the plain picture does not show.
-fn around_edges(scene: &dyn Scene, radius: u32) -> Result<Layer, EngineError> {
-    let settings = galpix_core::ddoc::Settings { radius, ..distortion::settings() };
-    let (samples, _) = ddoc::hidden::hidden(scene, &settings)?;
-    let mut update = scene::update(scene, 0.0);
-    for sample in &mut update.samples {
-        *sample = Sample { known: Known::ColourOnly, ..Sample::default() };
-    }
-    let mut displacements = vec![[0; 2]; update.samples.len()];
-    let mut offsets = vec![[0.0; 2]; update.samples.len()];
-    for hidden in samples.iter().filter(|sample| sample.hidden) {
-        let cell = hidden.cell[1] as usize * update.width + hidden.cell[0] as usize;
-        update.samples[cell] = hidden.sample;
-        displacements[cell] = hidden.displacement();
-        offsets[cell] = hidden.offset();
-    }
-    Ok(Layer::Anchored { update, displacements, offsets })
-}
-
-/// A layer without the samples that lie less than a separation behind those of the first.
-fn apart(first: &Update, second: &Update, separation: f64) -> Update {
-    let keep = |(first, second): (&Sample, &Sample)| {
-        let behind = first.known != Known::Motion || second.depth >= first.depth + separation;
-        if behind { *second } else { Sample { known: Known::ColourOnly, ..*second } }
-    };
-    Update { samples: first.samples.iter().zip(&second.samples).map(keep).collect(), ..second.clone() }
-}
-
-/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget; `None` if it has nothing of this
-/// kind.
+/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget: the first layer alone if it has
+/// nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn carry<L: Layout>(
@@ -259,89 +167,11 @@ pub fn carry<L: Layout>(
     way: Way,
     budget: Chosen<L>,
     frames: u32,
-) -> Result<Option<Carried>, EngineError> {
-    let Some(layers) = offered(source, way.kind)? else { return Ok(None) };
+) -> Result<Carried, EngineError> {
+    let layers = offered::offered(source, way.kind)?;
     let culling = if way.culled && !layers.is_empty() { Some(culling(update, budget, frames)?) } else { None };
-    Ok(Some(match way.kind {
-        Kind::Unlimited => unlimited(update, layers, culling),
-        _ => arranged(update, layers, way.arrangement, culling),
-    }))
-}
-
-/// A first layer and what is behind it, put into layers.
-fn arranged(update: &Update, mut layers: Vec<Layer>, arrangement: Arrangement, culling: Option<Culling>) -> Carried {
-    let covering = covering(&layers, update.samples.len());
-    let offered = count(&layers);
-    if let Some(culling) = &culling {
-        layers.iter_mut().for_each(|layer| cull(layer, culling, &[]));
-    }
-    let kept = count(&layers);
-    let mut base = update.clone();
-    let mut hidden = vec![false; base.samples.len()];
-    hidden.resize(base.samples.len() * (1 + layers.len()), true);
-    if let (Arrangement::Farther, Some(Layer::Moving(second))) = (arrangement, layers.first_mut()) {
-        let (of_base, of_layer) = hidden.split_at_mut(covering.len());
-        for (cell, _) in covering.iter().enumerate().filter(|&(_, &covering)| covering) {
-            std::mem::swap(&mut base.samples[cell], &mut second.samples[cell]);
-            std::mem::swap(&mut of_base[cell], &mut of_layer[cell]);
-        }
-    }
-    Carried { base, offered, kept, layers, culling, hidden }
-}
-
-/// Surfaces that are whole: what is seen of them is not hidden, and never left out. The largest one is the base.
-fn unlimited(update: &Update, mut surfaces: Vec<Layer>, culling: Option<Culling>) -> Carried {
-    surfaces.sort_by_key(|surface| std::cmp::Reverse(count(std::slice::from_ref(surface))));
-    let seen = |surface: &Layer| -> Vec<bool> {
-        let samples = surface.update().samples.iter().zip(&update.samples);
-        samples.map(|(own, seen)| own.known == Known::Motion && own.tag == seen.tag).collect()
-    };
-    let seen: Vec<Vec<bool>> = surfaces.iter().map(seen).collect();
-    let first: u32 = seen.iter().flatten().map(|&seen| u32::from(seen)).sum();
-    let offered = count(&surfaces) - first;
-    if let Some(culling) = &culling {
-        for (surface, seen) in surfaces.iter_mut().zip(&seen) {
-            cull(surface, culling, seen);
-        }
-    }
-    let kept = count(&surfaces) - first;
-    let mut base = surfaces.remove(0).into_update();
-    // Where no surface is, the world is black and infinitely far.
-    for (own, seen) in base.samples.iter_mut().zip(&update.samples).filter(|(_, seen)| seen.tag == 0) {
-        *own = *seen;
-    }
-    let hidden = seen.into_iter().flatten().map(|seen| !seen).collect();
-    Carried { base, offered, kept, layers: surfaces, culling, hidden }
-}
-
-fn count(layers: &[Layer]) -> u32 {
-    let known = |layer: &Layer| layer.update().samples.iter().filter(|s| s.known == Known::Motion).count() as u32;
-    layers.iter().map(known).sum()
-}
-
-/// Which cells have something behind what is seen.
-fn covering(layers: &[Layer], cells: usize) -> Vec<bool> {
-    let mut covering = vec![false; cells];
-    for layer in layers {
-        for (stored, _) in layer.update().samples.iter().enumerate().filter(|(_, s)| s.known == Known::Motion) {
-            if let Some(cell) = layer.seen_at(stored).and_then(|cell| covering.get_mut(cell)) {
-                *cell = true;
-            }
-        }
-    }
-    covering
-}
-
-/// Leaves out what cannot be uncovered, but for what is `seen`.
-fn cull(layer: &mut Layer, culling: &Culling, seen: &[bool]) {
-    let cells = 0..layer.update().samples.len();
-    let keep = |stored: usize| {
-        seen.get(stored) == Some(&true) || layer.seen_at(stored).is_some_and(|cell| culling.covers(cell))
-    };
-    let keep: Vec<bool> = cells.map(keep).collect();
-    for (sample, keep) in layer.update_mut().samples.iter_mut().zip(keep) {
-        if !keep {
-            *sample = Sample { known: Known::ColourOnly, ..*sample };
-        }
-    }
+    Ok(match way.kind {
+        Kind::Unlimited if !layers.is_empty() => arrange::unlimited(update, layers, culling),
+        _ => arrange::arranged(update, layers, way.arrangement, culling),
+    })
 }

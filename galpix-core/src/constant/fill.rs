@@ -24,7 +24,6 @@ pub fn fill<L: Layout, B: Budget<L>>(
 }
 
 /// [`fill`], whatever was shown before.
-#[inline(always)]
 pub(crate) fn fill_around<L: Layout, B: Budget<L>>(
     around: &impl Around,
     back: &mut Galpixmap<'_, L, B>,
@@ -53,7 +52,8 @@ pub(crate) fn fill_bullets<L: Layout, B: Budget<L>>(
     tally: &mut Tally,
 ) {
     let grid = *back.grid();
-    let mut filler = Filler { around: &Nothing, back, winners, edges, rung: Rung::Bullet, tally };
+    let budget = back.budget();
+    let mut filler = Filler { around: &Nothing(budget.record()), back, winners, edges, rung: Rung::Bullet, tally };
     for round in 0..Rung::Bullet.rounds(reach) {
         for (y, &row) in (0..).zip(grid.starts()) {
             filler.row(row, y, round, false);
@@ -136,8 +136,7 @@ impl<A: Around, L: Layout, B: Budget<L>> Filler<'_, '_, A, L, B> {
     /// the right end of the run of holes, if anything does.
     #[inline(always)]
     fn unobscured(&mut self, cell: u32, beside: &Beside, right: &Words, counts: u32) -> Words {
-        let budget = self.back.budget();
-        let record = budget.record();
+        let record = self.around.record();
         let before = self.around.before(cell).unwrap_or_default();
         let known = !is_empty(record, &before);
         let mut unknown: Words = Default::default();

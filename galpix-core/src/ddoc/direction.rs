@@ -4,7 +4,7 @@
 //! With `p = c_xx - c_yy` and `q = 2 c_xy` the double angle of the axis is that of (p, q), and half of it needs no arc: where
 //! `h = |(p, q)|`, the axis is along `(h + p, q)`, or along `(q, h - p)` where p is negative and the first would vanish.
 
-use super::splat::Window;
+use super::edges::Window;
 use crate::inpaint::root;
 
 /// Fraction bits of a unit vector's components.

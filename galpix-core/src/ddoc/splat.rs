@@ -1,18 +1,15 @@
-//! The splats of a distortion map: steps 2 to 6 of section 3.2.
+//! The splats of a distortion map: steps 3 to 6 of section 3.2.
 //!
 //! Each cell on the near side of an edge is the centre of a *splat*, a circle of cells that it may distort: on the hidden side
 //! up to the radius `r`, on the visible side up to `r / a_f`. The cells store which splat is theirs, not a copy of it.
 //!
-//! - **Edge cells** are those whose Laplacian (17) is *above* the threshold: their neighbours are farther. Those on the other
-//!   side of the same edge are as far below; they are no centres, or each edge would count twice, once from its wrong side.
 //! - **Of two splats** the one whose centre is closer has a cell; of two as close the one that comes first, row by row.
-//! - **A conflict** is a cell that a splat covers and another one owns whose direction is more than 90 degrees off. The splat
+//! - **A conflict** is a cell that a splat covers and another one owns whose direction is 90 degrees off or more. The splat
 //!   shrinks until the closest such cell is just outside. Owners do not change in the meantime, so the order does not matter.
 //! - **Orphans** are cells that have become too far for their owner; they are not distorted any more.
 
-use super::direction::{self, Moments};
+use super::direction;
 use super::{FRACTION_BITS, ONE, Settings, Tally};
-use crate::edge::laplacian;
 use crate::grid::Grid;
 use crate::inpaint::root;
 
@@ -30,15 +27,6 @@ pub struct Splat {
     pub far: u32,
     /// How far the hidden side reaches, [`FRACTION_BITS`] fraction bits.
     pub radius: u32,
-}
-
-/// What is seen around a cell of an edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Window {
-    /// The cells of the same edge.
-    pub moments: Moments,
-    /// The sum of all depths, each times its place from the middle: points to where it is farther.
-    pub slope: [i64; 2],
 }
 
 impl Splat {
@@ -112,108 +100,26 @@ impl Splat {
     /// Whether the splat covers the cell that is `x` and `y` away from its centre.
     #[inline(always)]
     #[must_use]
-    fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
+    pub(super) fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
         let reach = if self.is_visible([x, y]) { self.room(asymmetry) } else { self.radius };
         (x * x + y * y) as u32 <= reach * reach >> (2 * FRACTION_BITS)
     }
 
     /// Whether the cell that is `x` and `y` away from the centre is on the visible side.
     #[inline(always)]
-    const fn is_visible(&self, [x, y]: [i32; 2]) -> bool {
+    pub(super) const fn is_visible(&self, [x, y]: [i32; 2]) -> bool {
         x * self.direction[0] as i32 + y * self.direction[1] as i32 > 0
     }
 
     /// The largest radius with which the cell that is `x` and `y` away is not covered.
     #[inline(always)]
-    fn outside(&self, [x, y]: [i32; 2], asymmetry: u32) -> u32 {
+    pub(super) fn outside(&self, [x, y]: [i32; 2], asymmetry: u32) -> u32 {
         // The largest root whose square is below that of the distance.
         let square = (((x * x + y * y) as u32) << (2 * FRACTION_BITS)).saturating_sub(1);
         let reach = root::floor(square);
         // floor(16 r / a) <= reach exactly up to this radius.
         if self.is_visible([x, y]) { ((reach + 1) * asymmetry - 1) >> 4 } else { reach }
     }
-}
-
-/// Steps 2 and the first half of 3: finds the cells of edges, their directions and depths. Afterwards no cell has an owner.
-pub(super) fn gather<'s>(
-    grid: &Grid<'_>,
-    depths: &[u32],
-    settings: &Settings,
-    owners: &mut [u32],
-    splats: &'s mut [Splat],
-    tally: &mut Tally,
-) -> &'s mut [Splat] {
-    // The owners serve as the map of edges.
-    mark(grid, depths, settings.threshold as i32, owners);
-    let mut free = splats.iter_mut();
-    for y in 0..grid.height() as i32 {
-        for x in 0..grid.width() as i32 {
-            if at(grid, owners, x, y) != Some(1) {
-                continue;
-            }
-            tally.edges += 1;
-            let Some(splat) = found(grid, depths, settings, owners, [x, y]) else { continue };
-            match free.next() {
-                Some(to) => {
-                    *to = splat;
-                    tally.splats += 1;
-                }
-                None => tally.dropped += 1,
-            }
-        }
-    }
-    owners.fill(0);
-    splats.get_mut(..tally.splats as usize).unwrap_or_default()
-}
-
-/// The splat around an edge's cell, unless it faces nowhere.
-fn found(grid: &Grid<'_>, depths: &[u32], settings: &Settings, edges: &[u32], [x, y]: [i32; 2]) -> Option<Splat> {
-    let near = at(grid, depths, x, y)?;
-    let mut far = near;
-    for (dx, dy) in [(0, -1), (-1, 0), (1, 0), (0, 1)] {
-        if let Some(depth) = at(grid, depths, x + dx, y + dy) {
-            far = if depth > far { depth } else { far };
-        }
-    }
-    let mut window = Window::default();
-    let reach = settings.window as i32;
-    for dy in -reach..=reach {
-        for dx in -reach..=reach {
-            let Some(depth) = at(grid, depths, x + dx, y + dy) else { continue };
-            let step = i64::from(depth) - i64::from(near);
-            window.slope[0] += step * i64::from(dx);
-            window.slope[1] += step * i64::from(dy);
-            // Other things have edges, too: those whose depth is beyond the middle of this step.
-            let same = step.unsigned_abs() * 2 < u64::from(far - near);
-            if same && at(grid, edges, x + dx, y + dy) == Some(1) {
-                window.moments.add(dx, dy);
-            }
-        }
-    }
-    let direction = direction::direction(&window)?;
-    let radius = settings.radius << FRACTION_BITS;
-    Some(Splat { cell: [x as u16, y as u16], direction, near, far, radius })
-}
-
-/// Writes 1 for the near side of an edge, 0 for all else. Beyond the border the depths go on.
-fn mark(grid: &Grid<'_>, depths: &[u32], threshold: i32, edges: &mut [u32]) {
-    let width = grid.width() as i32;
-    let mut cells = edges.iter_mut();
-    for y in 0..grid.height() as i32 {
-        for x in 0..width {
-            let Some(edge) = cells.next() else { return };
-            let own = at(grid, depths, x, y).unwrap_or(0);
-            let depth = |x, y| at(grid, depths, x, y).unwrap_or(own) as i32;
-            let source = laplacian(own as i32, depth(x - 1, y), depth(x + 1, y), depth(x, y - 1), depth(x, y + 1));
-            *edge = u32::from(source > threshold);
-        }
-    }
-}
-
-/// What a plane holds at a cell.
-#[inline(always)]
-fn at(grid: &Grid<'_>, plane: &[u32], x: i32, y: i32) -> Option<u32> {
-    plane.get(grid.cell(x, y)? as usize).copied()
 }
 
 /// The cells of the square around a splat: how far they are from its centre, and their owner, which may be changed.
@@ -250,7 +156,7 @@ pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], spl
     }
 }
 
-/// Step 4: shrinks splats until no cell that they cover is another's with a direction more than 90 degrees off.
+/// Step 4: shrinks splats until no cell that they cover is another's whose direction conflicts with theirs.
 pub(super) fn shrink(
     grid: &Grid<'_>,
     settings: &Settings,
@@ -264,7 +170,7 @@ pub(super) fn shrink(
         around(grid, owners, &splat, |from, owner| {
             let Some(other) = splats.get(owner.wrapping_sub(1) as usize) else { return };
             let [x, y] = [0, 1].map(|axis: usize| i32::from(splat.direction[axis]) * i32::from(other.direction[axis]));
-            if x + y < 0 && splat.covers(from, settings.asymmetry) {
+            if x + y <= settings.conflict << direction::FRACTION_BITS && splat.covers(from, settings.asymmetry) {
                 radius = radius.min(splat.outside(from, settings.asymmetry));
             }
         });

@@ -1,10 +1,11 @@
 //! Spreading in steps of 1, 2, 4, ... cells, as Algorithm 2 of the supplement has it: for machines that work on all cells at once.
 //!
 //! Each of the four scans of [`super::spread()`] in two rounds of steps. The extent that moves is as simple as printed: the largest of its own and of
-//! those `m` cells before it, shorter by `m`. The others are carried as far as an unbroken chain of cells hands them on, which is what `linked` says: cell by
-//! cell at first, then of twice as many cells if it held for both halves. Every step reads all cells as they were before it.
+//! those `m` cells before it, shorter by `m`. The others are carried as far as an unbroken chain of cells hands them on. What breaks a chain, a cell that is shut and
+//! for the others one that does not reach the next, is kept in `linked`: cell by cell at first, then of twice as many cells if it held for both halves. Every step
+//! reads all cells as they were before it.
 
-use super::extents::{DOWNWARDS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, larger};
+use super::extents::{DOWNWARDS, EXTENTS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, larger};
 use crate::grid::Grid;
 
 /// A scan: the extent that moves, and the step of one cell against its way.
@@ -20,6 +21,8 @@ const SCANS: [Scan; 4] = [
     Scan { way: DOWNWARDS, back: [0, -1] },
     Scan { way: UPWARDS, back: [0, 1] },
 ];
+
+const NO_END: u32 = Extents::NO_END as u32;
 
 /// Bits of `linked`: as it is, and as it becomes.
 const IS: u32 = 0;
@@ -37,22 +40,28 @@ pub fn spread_by_doubling(extents: &mut [u32], spare: &mut [u32], grid: &Grid<'_
         let sides = [grid.width(), grid.height()];
         let side = if scan.back[0] != 0 { sides[0] } else { sides[1] };
         let levels = 32 - side.leading_zeros();
+        link(extents, linked, grid, scan, |_| true);
         for level in 0..levels {
-            step(extents, next, grid, scan, 1 << level, |own, before, _| {
-                let moved = (before >> scan.way & 0xff).saturating_sub(1 << level);
-                larger(own, moved << scan.way)
+            step(extents, next, grid, scan, 1 << level, |own, before, cell| {
+                let extent = before >> scan.way & NO_END;
+                let moved = if extent == NO_END { extent } else { extent.saturating_sub(1 << level) };
+                if at(linked, cell) >> IS & 1 != 0 { larger(own, moved << scan.way) } else { own }
             });
+            double(linked, grid, scan, 1 << level);
         }
-        link(extents, linked, grid, scan);
+        link(extents, linked, grid, scan, |before| before >> scan.way & NO_END >= 2);
         for level in 0..levels {
             // The first step leaves nothing but one cell behind a cell that it reaches.
-            let carried = !(0xff << scan.way | 0xff << (scan.way ^ 8));
+            let carried = EXTENTS & !(0xff << scan.way | 0xff << (scan.way ^ 8));
             let behind = if level == 0 { 1 << (scan.way ^ 8) } else { 0 };
             step(extents, next, grid, scan, 1 << level, |own, before, cell| {
                 if at(linked, cell) >> IS & 1 != 0 { larger(own, before & carried | behind) } else { own }
             });
             double(linked, grid, scan, 1 << level);
         }
+    }
+    for word in &mut *extents {
+        *word &= EXTENTS;
     }
     extents.iter().map(|&word| u32::from(word != 0)).sum()
 }
@@ -107,11 +116,12 @@ fn step(
     }
 }
 
-/// Which cells get something from the one before them.
-fn link(extents: &[u32], linked: &mut [u32], grid: &Grid<'_>, scan: Scan) {
+/// Which cells are open to the one before them, and that one `reaches` them.
+fn link(extents: &[u32], linked: &mut [u32], grid: &Grid<'_>, scan: Scan, reaches: impl Fn(u32) -> bool) {
     for (&start, y) in grid.starts().iter().zip(0..) {
         for x in 0..grid.width() {
-            let hands_on = back(grid, scan, x, y, 1).is_some_and(|before| at(extents, before) >> scan.way & 0xff >= 2);
+            let open = at(extents, start + x) & 0x80 << scan.way == 0;
+            let hands_on = open && back(grid, scan, x, y, 1).is_some_and(|before| reaches(at(extents, before)));
             if let Some(to) = linked.get_mut((start + x) as usize) {
                 *to = u32::from(hands_on) << IS;
             }

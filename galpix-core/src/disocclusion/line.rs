@@ -3,8 +3,8 @@
 //! What [`super::map`] does in one pass down and one pass up, where on the way up the rows are marked anew. Of the line before only one
 //! extent matters, the one that moves with the pass; so that the word of a cell holds it in the place of the opposite one.
 
-use super::extents::{DOWNWARDS, UPWARDS};
-use super::mark::{Marker, Runs};
+use super::extents::{DOWNWARDS, EXTENTS, UPWARDS, extent, shorter, shut};
+use super::mark::Marker;
 use super::{Reach, Tally, spread};
 use crate::galpixel::Budget;
 use crate::galpixmap::Galpixmap;
@@ -23,7 +23,7 @@ pub fn cover<L: Layout, B: Budget<L>>(
     mask.fill(0);
     let Some(line) = line.get_mut(..front.grid().width() as usize) else { return Tally::default() };
     let rows = front.grid().height();
-    let mut down = Pass { marker: Marker::new(front, reach), runs: Runs::EMPTY, line, mask, covered: 0 };
+    let mut down = Pass { marker: Marker::new(front, reach), line, mask, covered: 0 };
     down.line.fill(0);
     for y in 0..rows {
         down.row::<DOWNWARDS, UPWARDS>(y);
@@ -40,7 +40,6 @@ pub fn cover<L: Layout, B: Budget<L>>(
 /// A pass over all rows.
 struct Pass<'m, 'p, L, B> {
     marker: Marker<'m, 'p, L, B>,
-    runs: Runs,
     line: &'m mut [u32],
     mask: &'m mut [u32],
     covered: u32,
@@ -50,21 +49,23 @@ impl<L: Layout, B: Budget<L>> Pass<'_, '_, L, B> {
     /// The next row of a pass on the way `WAY`: what the line before hands on is in the place of the extent `AGAINST` it.
     fn row<const WAY: u32, const AGAINST: u32>(&mut self, y: u32) {
         let Some(start) = self.marker.begin::<WAY>(y, self.line) else { return };
-        self.marker.rows::<true>(&mut self.runs, y, self.line, &mut []);
+        self.marker.rows::<true>(y, self.line, &mut []);
         if let Some(above) = y.checked_sub(1) {
             let tally = self.marker.tally;
-            self.marker.rows::<false>(&mut self.runs, above, &mut [], self.line);
+            self.marker.rows::<false>(above, &mut [], self.line);
             self.marker.tally = tally;
         }
         spread::along(self.line, !(0xff << AGAINST));
         for (word, cell) in self.line.iter_mut().zip(start..) {
-            let covered = u32::from(*word != 0);
+            let own = extent::<WAY>(*word);
+            let handed = if *word & shut::<WAY>() == 0 { extent::<AGAINST>(*word) } else { 0 };
+            let others = EXTENTS & !(0x7f << WAY | 0x7f << AGAINST);
+            let covered = u32::from(*word & others | own | handed != 0);
             if let Some(mask) = self.mask.get_mut((cell >> 5) as usize) {
                 self.covered += covered & !(*mask >> (cell & 31));
                 *mask |= covered << (cell & 31);
             }
-            let moving = (*word >> WAY & 0xff).max(*word >> AGAINST & 0xff);
-            *word = moving.saturating_sub(1) << AGAINST;
+            *word = shorter::<AGAINST>(own.max(handed) << AGAINST);
         }
     }
 }

@@ -5,81 +5,67 @@
 
 use core::ops::Range;
 
-use super::extents::{Extents, ONLY_ITSELF, larger};
-use super::pair::{Body, FARTHEST, Rule, Uncovered};
+use super::extents::{EXTENTS, ONLY_ITSELF, larger};
+use super::pair::{Body, Rule, Uncovered};
 use super::{Border, Reach, Tally};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
+use crate::record::{Extract, Field, Record};
 use crate::sweep::VECTORS;
 
 /// No pass whose extents stay in the rows.
 pub(crate) const NO_PASS: u32 = u32::MAX;
 
-/// Neighbours that are looked at once.
+/// Neighbours that are looked at once. A power of two.
 const RUN: usize = if VECTORS { 64 } else { 8 };
 
-/// What decides whether neighbours go pair by pair, of a run and the cell after it.
-struct Lanes {
-    keys: [i32; RUN + 1],
-    /// Velocity and acceleration, in x and in y.
-    motion: [[[i32; RUN + 1]; 2]; 2],
+/// The words of a run of cells that decide whether neighbours go pair by pair: of each field the word of its upper part, and of what spills.
+struct Lanes<'l> {
+    class: &'l [u32; RUN],
+    depth: [&'l [u32; RUN]; 2],
+    v: [&'l [u32; RUN]; 2],
+    a: [&'l [u32; RUN]; 2],
 }
 
-/// The same of as many neighbours as are looked at once, along one component.
-type Run<'l> = [&'l [i32; RUN]; 3];
-
-impl Lanes {
-    const EMPTY: Self = Self { keys: [0; RUN + 1], motion: [[[0; RUN + 1]; 2]; 2] };
-
-    /// Takes some cells; stale ones stay behind them.
+impl<'l> Lanes<'l> {
+    /// The cells from `cell` on, if there are as many in the map.
     #[inline(always)]
-    fn take<L: Layout, B: Budget<L>>(&mut self, front: &Galpixmap<'_, L, B>, cells: Range<usize>) {
-        for (to, key) in self.keys.iter_mut().zip(front.keys(cells.clone())) {
-            let empty = front.class_of(key) == Class::Empty as u32;
-            *to = if empty { FARTHEST } else { key as i32 };
-        }
+    fn at<L: Layout, B: Budget<L>, const ALONG: usize>(front: &'l Galpixmap<'_, L, B>, cell: u32) -> Option<Self> {
         let record = front.record();
-        for (lanes, component) in self.motion.iter_mut().zip(0..) {
-            let fields = [record.velocity(component), record.acceleration(component)];
-            for (lanes, field) in lanes.iter_mut().zip(fields).take(motions::<L>()) {
-                for (to, value) in lanes.iter_mut().zip(front.signed(field, cells.clone())) {
-                    *to = value;
-                }
+        let word = |word: usize| front.planes()[word].get(cell as usize..)?.first_chunk();
+        let field = |field: Field| {
+            let (upper, lower) = field.words();
+            Some([word(upper)?, word(lower)?])
+        };
+        let [class, _] = field(record.class())?;
+        Some(Self {
+            class,
+            depth: field(record.depth())?,
+            v: field(record.velocity(ALONG))?,
+            a: field(record.acceleration(ALONG))?,
+        })
+    }
+
+    /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it.
+    #[inline(always)]
+    fn key<L: Layout, B: Budget<L>>(&self, record: &Record, lane: usize) -> u32 {
+        let ([depth, spill], lane) = (self.depth, lane & (RUN - 1));
+        match record.key_field() {
+            Some(key) if B::FIXED => key.extract().unsigned(depth[lane], depth[lane]),
+            _ => {
+                let class = record.class().extract().unsigned(self.class[lane], self.class[lane]);
+                class << record.depth().bits | record.depth().extract().unsigned(depth[lane], spill[lane])
             }
         }
     }
-
-    /// The first lanes.
-    #[inline(always)]
-    fn first<const ALONG: usize>(&self) -> Option<Run<'_>> {
-        let [v, a] = &self.motion[ALONG];
-        Some([self.keys.first_chunk()?, v.first_chunk()?, a.first_chunk()?])
-    }
-
-    /// Of each of the first lanes the one after it.
-    #[inline(always)]
-    fn last<const ALONG: usize>(&self) -> Option<Run<'_>> {
-        let [v, a] = &self.motion[ALONG];
-        Some([self.keys.last_chunk()?, v.last_chunk()?, a.last_chunk()?])
-    }
 }
 
-/// Fields of the motion along a component that a layout can have.
-const fn motions<L: Layout>() -> usize {
-    L::LANES.velocity as usize + L::LANES.acceleration as usize
-}
-
-/// Two rows, a run at a time. Made once for all.
-pub(crate) struct Runs {
-    upper: Lanes,
-    lower: Lanes,
-    /// Not 0 where a pair must be looked at.
-    flags: [u32; RUN],
-}
-
-impl Runs {
-    pub const EMPTY: Self = Self { upper: Lanes::EMPTY, lower: Lanes::EMPTY, flags: [0; RUN] };
+/// A field of a lane.
+#[inline(always)]
+fn signed(field: Extract, [upper, lower]: [&[u32; RUN]; 2], lane: usize) -> i32 {
+    let lane = lane & (RUN - 1);
+    field.signed(upper[lane], lower[lane])
 }
 
 /// What is done with each pair of a map.
@@ -113,8 +99,14 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let start = self.front.grid().row(y as i32)?;
         let kept = if WAY == NO_PASS { 0 } else { 0xff << (WAY ^ 8) };
         self.marked = !kept;
-        let keys = self.front.keys(start as usize..(start + self.front.grid().width()) as usize);
-        for (word, key) in row.iter_mut().zip(keys) {
+        let cells = start as usize..(start + self.front.grid().width()) as usize;
+        if !self.front.any_empty(start, self.front.grid().width()) {
+            for word in row.iter_mut() {
+                *word &= kept;
+            }
+            return Some(start);
+        }
+        for (word, key) in row.iter_mut().zip(self.front.keys(cells)) {
             let empty = self.front.class_of(key) == Class::Empty as u32;
             *word = *word & kept | if empty { ONLY_ITSELF & !kept } else { 0 };
         }
@@ -123,24 +115,24 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 
     /// Marks what is uncovered in row `y`, which is `here`, and in row `y + 1`, which is `next`, by pairs of one cell in each; and in row `y` by pairs in
     /// it, if `IN_ROW`, and by what lies beyond the border. Both must have begun; an empty one is left out.
-    pub fn rows<const IN_ROW: bool>(&mut self, runs: &mut Runs, y: u32, here: &mut [u32], next: &mut [u32]) {
+    pub fn rows<const IN_ROW: bool>(&mut self, y: u32, here: &mut [u32], next: &mut [u32]) {
         let grid = *self.front.grid();
         let Some(row) = grid.row(y as i32) else { return };
         let below = grid.row(y as i32 + 1);
-        let Runs { upper, lower, flags } = runs;
+        let (mut in_row, mut between) = ([0; RUN], [0; RUN]);
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(RUN as u32);
-            let with_next = (grid.width() - x).min(RUN as u32 + 1);
-            upper.take(self.front, (row + x) as usize..(row + x + with_next) as usize);
+            // All that the pairs are made of is in the cache after these.
+            if let Some(below) = below {
+                self.compare::<1>(row + x, below + x, &mut between);
+            }
             if IN_ROW {
-                self.compare::<0>(upper.first::<0>(), upper.last::<0>(), flags);
-                self.pairs_in_row(flags, row, x..x + with_next - 1, here);
+                self.compare::<0>(row + x, row + x + 1, &mut in_row);
+                self.pairs_in_row(&in_row, row, x..(x + cells).min(grid.width() - 1), here);
             }
             if let Some(below) = below {
-                lower.take(self.front, (below + x) as usize..(below + x + cells) as usize);
-                self.compare::<1>(upper.first::<1>(), lower.first::<1>(), flags);
-                self.pairs_between(flags, [row, below], x..x + cells, here, next);
+                self.pairs_between(&between, [row, below], x..x + cells, here, next);
             }
             x += cells;
         }
@@ -149,31 +141,52 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         }
     }
 
-    /// Flags the lanes that must be looked at: those of two surfaces, and those that may part.
+    /// Flags the lanes that must be looked at: those of two surfaces, and those that may part. The pairs are those of the cells from
+    /// `one` and from `other` on; all are flagged where the map ends before the run does.
     #[inline(always)]
-    fn compare<const ALONG: usize>(&self, one: Option<Run<'_>>, other: Option<Run<'_>>, flags: &mut [u32; RUN]) {
-        let (Some([keys, motion @ ..]), Some([other_keys, other_motion @ ..])) = (one, other) else { return };
-        let separation = self.rule.separation;
-        for ((flag, &one), &other) in flags.iter_mut().zip(keys).zip(other_keys) {
-            let farther = other.wrapping_sub(one);
-            *flag = u32::from(farther >= separation) | u32::from(farther <= -separation);
-        }
-        let limits = self.limits[ALONG];
-        for ((one, other), (limit, beyond)) in motion.into_iter().zip(other_motion).zip(limits).take(motions::<L>()) {
-            for ((flag, &one), &other) in flags.iter_mut().zip(one).zip(other) {
-                *flag |= other.wrapping_sub(one).wrapping_add(limit) as u32 & beyond;
+    fn compare<const ALONG: usize>(&self, one: u32, other: u32, flags: &mut [u32; RUN]) {
+        let one = Lanes::at::<L, B, ALONG>(self.front, one);
+        let (Some(one), Some(other)) = (one, Lanes::at::<L, B, ALONG>(self.front, other)) else {
+            *flags = [1; RUN];
+            return;
+        };
+        let record = self.front.record();
+        let (separation, [(v_limit, v_beyond), (a_limit, a_beyond)]) = (self.rule.separation, self.limits[ALONG]);
+        let (v, a) = (record.velocity(ALONG).extract(), record.acceleration(ALONG).extract());
+        let depth_bits = record.depth().bits;
+        // The sign is set where the difference is the separation or more.
+        let within = separation.wrapping_sub(1);
+        for (lane, flag) in flags.iter_mut().enumerate() {
+            let (key, other_key) = (one.key::<L, B>(record, lane), other.key::<L, B>(record, lane));
+            let farther = other_key.wrapping_sub(key) as i32;
+            let apart = within.wrapping_sub(farther) | within.wrapping_add(farther);
+            // Keys of empty cells say nothing.
+            let mut look = apart as u32 & 1 << 31 | (key ^ other_key) >> depth_bits;
+            if L::LANES.velocity {
+                let (one, other) = (signed(v, one.v, lane), signed(v, other.v, lane));
+                look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
             }
+            if L::LANES.acceleration {
+                let (one, other) = (signed(a, one.a, lane), signed(a, other.a, lane));
+                look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
+            }
+            *flag = look;
         }
     }
 
     /// Looks at the flagged pairs of neighbours in a row, of which the left ones are in the columns `columns`.
     fn pairs_in_row(&mut self, flags: &[u32; RUN], row: u32, columns: Range<u32>, here: &mut [u32]) {
-        for x in flagged(flags, columns) {
-            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
-            if let Some(uncovered) = self.uncovered::<0>(&one, &other) {
-                self.raise(here, x, uncovered.first);
-                self.raise(here, x + 1, uncovered.second);
+        let mut start = columns.start;
+        for eight in flags.as_chunks::<8>().0 {
+            if any(eight) {
+                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
+                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
+                    let uncovered = self.uncovered::<0>(&one, &other);
+                    self.raise(here, x, uncovered.first);
+                    self.raise(here, x + 1, uncovered.second);
+                }
             }
+            start += 8;
         }
     }
 
@@ -187,12 +200,17 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         next: &mut [u32],
     ) {
         let [row, below] = rows;
-        for x in flagged(flags, columns) {
-            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
-            if let Some(uncovered) = self.uncovered::<1>(&one, &other) {
-                self.raise(here, x, uncovered.first);
-                self.raise(next, x, uncovered.second);
+        let mut start = columns.start;
+        for eight in flags.as_chunks::<8>().0 {
+            if any(eight) {
+                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
+                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
+                    let uncovered = self.uncovered::<1>(&one, &other);
+                    self.raise(here, x, uncovered.first);
+                    self.raise(next, x, uncovered.second);
+                }
             }
+            start += 8;
         }
     }
 
@@ -212,32 +230,31 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     fn beside_nothing<const ALONG: usize>(&mut self, row: u32, x: u32, before: bool, here: &mut [u32]) {
         let body = Body::read(self.front, row + x);
         let [one, other] = if before { [Body::NOTHING, body] } else { [body, Body::NOTHING] };
-        if let Some(uncovered) = self.uncovered::<ALONG>(&one, &other) {
-            self.raise(here, x, if before { uncovered.second } else { uncovered.first });
-        }
+        let uncovered = self.uncovered::<ALONG>(&one, &other);
+        self.raise(here, x, if before { uncovered.second } else { uncovered.first });
     }
 
     /// What two neighbours uncover, counted.
-    fn uncovered<const ALONG: usize>(&mut self, one: &Body, other: &Body) -> Option<Uncovered> {
-        let uncovered = self.rule.uncovered::<ALONG>(one, other)?;
-        self.tally.edges += 1;
-        self.tally.cut += u32::from(uncovered.cut);
-        Some(uncovered)
+    fn uncovered<const ALONG: usize>(&mut self, one: &Body, other: &Body) -> Uncovered {
+        if one == other {
+            return Uncovered::default();
+        }
+        let uncovered = self.rule.uncovered::<ALONG>(one, other);
+        self.tally.edges += u32::from(uncovered.opens);
+        self.tally.endless += u32::from(uncovered.endless);
+        uncovered
     }
 
-    fn raise(&self, row: &mut [u32], x: u32, to: Extents) {
+    fn raise(&self, row: &mut [u32], x: u32, to: u32) {
         if let Some(word) = row.get_mut(x as usize) {
-            *word = larger(*word, to.word() & self.marked);
+            let to = to & self.marked;
+            *word = larger(*word, to) | to & !EXTENTS;
         }
     }
 }
 
-/// The columns whose lane is flagged.
+/// Whether any lane is flagged.
 #[inline(always)]
-fn flagged(flags: &[u32; RUN], columns: Range<u32>) -> impl Iterator<Item = u32> {
-    let (eights, _) = flags.as_chunks::<8>();
-    let starts = (columns.start..).zip(0..).map(|(first, block)| first + 7 * block);
-    eights.iter().zip(starts).filter(|(flags, _)| flags.iter().fold(0, |any, flag| any | *flag) != 0).flat_map(
-        move |(flags, start)| flags.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0).map(|(_, x)| x),
-    )
+fn any(flags: &[u32; 8]) -> bool {
+    flags.iter().fold(0, |any, flag| any | flag) != 0
 }

@@ -1,7 +1,7 @@
 //! Which of two neighbours leaves the other, and what it uncovers.
 
 use super::Reach;
-use super::extents::Extents;
+use super::extents::{DOWNWARDS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, shut};
 use super::reach::{Bound, Motion};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -9,10 +9,13 @@ use crate::layout::Layout;
 use crate::record::Record;
 
 /// The key of what nothing is behind: empty cells, and what lies beyond the border.
-pub(crate) const FARTHEST: i32 = i32::MAX;
+const FARTHEST: i32 = i32::MAX;
 
 /// The largest separation: even the last key is nearer than [`FARTHEST`] by as much.
 pub(crate) const WIDEST_SEPARATION: u32 = 1 << 30;
+
+/// Cells by which two surfaces get apart so far that they do not belong together. A power of two.
+const APART: u32 = 2;
 
 /// What is asked of a galpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,29 +33,38 @@ impl Body {
     /// What is in a cell.
     #[inline(always)]
     pub fn read<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, cell: u32) -> Self {
-        let (Some(words), Some(key)) = (front.words_at(cell), front.key_at(cell)) else { return Self::NOTHING };
-        let record = front.record();
-        if record.class().unsigned(&words) == Class::Empty as u32 {
+        let Some(key) = front.key_at(cell) else { return Self::NOTHING };
+        if front.class_of(key) == Class::Empty as u32 {
             return Self::NOTHING;
         }
-        let motion = |component: usize| Motion {
-            offset: record.offset(component).signed(&words),
-            velocity: record.velocity(component).signed(&words),
-            acceleration: record.acceleration(component).signed(&words) << record.scales[component].acceleration_up,
-        };
-        Self { key: key as i32, motion: [motion(0), motion(1)] }
+        // Words that hold nothing of this are not read: they would not be in the cache.
+        Self { key: key as i32, motion: [motion::<L, B, 0>(front, cell), motion::<L, B, 1>(front, cell)] }
     }
 }
 
-/// What two neighbours uncover.
+/// The motion of what is in a cell along a component.
+#[inline(always)]
+fn motion<L: Layout, B: Budget<L>, const ALONG: usize>(front: &Galpixmap<'_, L, B>, cell: u32) -> Motion {
+    let record = front.record();
+    let acceleration = front.signed(record.acceleration(ALONG), cell);
+    Motion {
+        offset: front.signed(record.offset(ALONG), cell),
+        velocity: front.signed(record.velocity(ALONG), cell),
+        acceleration: acceleration << record.scales[ALONG].acceleration_up,
+    }
+}
+
+/// What two neighbours uncover, and where one shuts the other off, as words of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(crate) struct Uncovered {
     /// By the left or upper one, in itself and behind it.
-    pub first: Extents,
+    pub first: u32,
     /// By the right or lower one.
-    pub second: Extents,
-    /// Whether an extent was cut off at 255.
-    pub cut: bool,
+    pub second: u32,
+    /// Whether anything is uncovered.
+    pub opens: bool,
+    /// Whether an extent has no end.
+    pub endless: bool,
 }
 
 /// The rule for all pairs of a map.
@@ -63,6 +75,8 @@ pub(crate) struct Rule {
     pub separation: i32,
     /// Whether neighbours of one surface count that part by a whole cell.
     pub tears: bool,
+    /// Whether what is uncovered ends where its surface does.
+    pub ends: bool,
 }
 
 impl Rule {
@@ -70,32 +84,51 @@ impl Rule {
         let frames = reach.frames.min(Reach::MOST_FRAMES);
         let [x, y, _] = &record.scales;
         let bound = |scale, component| Bound::new(scale, record.acceleration(component).present(), frames);
-        let separation = reach.separation.min(WIDEST_SEPARATION) as i32;
-        Self { bounds: [bound(x, 0), bound(y, 1)], separation, tears: reach.tears }
+        Self {
+            bounds: [bound(x, 0), bound(y, 1)],
+            separation: reach.separation.min(WIDEST_SEPARATION) as i32,
+            tears: reach.tears,
+            ends: !reach.through,
+        }
     }
 
-    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower), or nothing if none of
-    /// them leaves.
+    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower).
     #[inline(never)]
-    pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Option<Uncovered> {
+    pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Uncovered {
         let ([x, y], [first_x, first_y], [second_x, second_y]) = (&self.bounds, first.motion, second.motion);
         let (along, across) = if ALONG == 0 { (x, y) } else { (y, x) };
         let (first_along, first_across) = if ALONG == 0 { (first_x, first_y) } else { (first_y, first_x) };
         let (second_along, second_across) = if ALONG == 0 { (second_x, second_y) } else { (second_y, second_x) };
-        let gap = along.cells(second_along, first_along);
-        if gap == 0 {
-            return None;
-        }
         let farther = second.key.wrapping_sub(first.key);
         let one_surface = farther < self.separation && farther > -self.separation;
-        if one_surface && !(self.tears && along.parts(second_along, first_along)) {
-            return None;
+        let mut uncovered = Uncovered::default();
+        let ahead = along.between(second_along, first_along);
+        let aside = across.between(second_across, first_across);
+        let gap = along.cells(&ahead);
+        let opens = gap > 0 && (!one_surface || self.tears && along.parts(&ahead));
+        let may_end = self.ends && !one_surface && farther != 0;
+        if !opens && !may_end {
+            return uncovered;
         }
         // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
-        let onwards = across.cells(second_across, first_across) + 1;
-        let backwards = across.cells(first_across, second_across) + 1;
-        let cut = gap > 255 || onwards > 255 || backwards > 255;
-        let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(255) as u8);
+        let (onwards, backwards) = (across.cells(&aside), across.cells(&aside.reversed()));
+        // What the nearer one uncovers is behind itself: it is not handed on to a farther one that moves apart from it.
+        if may_end && ((gap | onwards | backwards) >= APART || along.cells(&ahead.reversed()) >= APART) {
+            let (behind_second, behind_first) = if ALONG == 0 {
+                (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
+            } else {
+                (shut::<DOWNWARDS>(), shut::<UPWARDS>())
+            };
+            if farther > 0 { uncovered.second = behind_second } else { uncovered.first = behind_first }
+        }
+        if !opens {
+            return uncovered;
+        }
+        uncovered.opens = true;
+        let (onwards, backwards) = (onwards + 1, backwards + 1);
+        const NO_END: u32 = Extents::NO_END as u32;
+        uncovered.endless = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
+        let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(NO_END) as u8);
         let (one, other) = if ALONG == 0 {
             (
                 Extents { left: gap, right: 1, above: onwards, below: backwards },
@@ -109,8 +142,12 @@ impl Rule {
         };
         // The nearer one leaves; two of one surface, or as near, both.
         let both = one_surface || farther == 0;
-        let first = if both || farther > 0 { one } else { Extents::default() };
-        let second = if both || farther < 0 { other } else { Extents::default() };
-        Some(Uncovered { first, second, cut })
+        if both || farther > 0 {
+            uncovered.first |= one.word();
+        }
+        if both || farther < 0 {
+            uncovered.second |= other.word();
+        }
+        uncovered
     }
 }

@@ -22,6 +22,31 @@ pub(crate) struct Motion {
     pub acceleration: i32,
 }
 
+/// How one galpixel moves against another along one component.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Relative {
+    moving: bool,
+    offset: i64,
+    velocity: i64,
+    change: i64,
+    /// Both, if the velocity of any of them leaves its field.
+    saturating: Option<[Motion; 2]>,
+}
+
+impl Relative {
+    /// How the other moves against the one.
+    #[inline(always)]
+    pub fn reversed(&self) -> Self {
+        Self {
+            moving: self.moving,
+            offset: -self.offset,
+            velocity: -self.velocity,
+            change: -self.change,
+            saturating: self.saturating.map(|[one, other]| [other, one]),
+        }
+    }
+}
+
 /// What bounds of one component are made with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bound {
@@ -53,23 +78,39 @@ impl Bound {
         Self { scale: *scale, frames, slack }
     }
 
-    /// Cells by which `one` gets ahead of `other` at most in any of the frames, 0 or more.
-    #[inline(never)]
-    pub fn cells(&self, one: Motion, other: Motion) -> u32 {
-        if self.frames == 0 || one == other {
+    /// How `one` moves against `other`.
+    #[inline(always)]
+    pub fn between(&self, one: Motion, other: Motion) -> Relative {
+        let last = self.frames.saturating_sub(1);
+        Relative {
+            moving: self.frames > 0 && one != other,
+            offset: i64::from(one.offset) - i64::from(other.offset),
+            velocity: i64::from(one.velocity) - i64::from(other.velocity),
+            change: i64::from(one.acceleration) - i64::from(other.acceleration),
+            saturating: if self.saturates(one, last) || self.saturates(other, last) {
+                Some([one, other])
+            } else {
+                None
+            },
+        }
+    }
+
+    /// Cells by which the one gets ahead of the other at most in any of the frames, 0 or more.
+    #[inline(always)]
+    pub fn cells(&self, of: &Relative) -> u32 {
+        if !of.moving {
             return 0;
         }
         let Scale { down, up, position_frac, .. } = self.scale;
-        let ahead =
-            i64::from(one.offset) - i64::from(other.offset) + ((self.most(one, other, self.slack) >> down) << up);
+        let ahead = of.offset + ((self.most(of, self.slack) >> down) << up);
         let cells = ahead.wrapping_add((1i64 << position_frac) - 1) >> position_frac;
         cells.clamp(0, 1 << 30) as u32
     }
 
-    /// Whether `one` gets ahead of `other` by a whole cell in any of the frames, were it not for rounding and places.
-    #[inline(never)]
-    pub fn parts(&self, one: Motion, other: Motion) -> bool {
-        self.frames > 0 && one != other && self.most(one, other, 0) >= 2i64 << self.scale.velocity_frac
+    /// Whether the one gets ahead of the other by a whole cell in any of the frames, were it not for rounding and places.
+    #[inline(always)]
+    pub fn parts(&self, of: &Relative) -> bool {
+        of.moving && self.most(of, 0) >= 2i64 << self.scale.velocity_frac
     }
 
     /// Neither gets ahead of the other by a whole cell, as in [`Self::parts`], if velocities differ by at most the first and
@@ -77,7 +118,7 @@ impl Bound {
     pub fn together(&self) -> [i32; 2] {
         // 2 |dv| n + |da| n² <= 2^velocity_frac + 2^(velocity_frac - 1) < 2^(velocity_frac + 1) for n <= 2^log; and velocities that
         // saturate come no farther apart than those that do not.
-        let log = 32 - self.frames.saturating_sub(1).leading_zeros();
+        let log = (0..8).filter(|log| self.frames > 1 << log).count() as u32;
         let velocity = self.scale.velocity_frac.checked_sub(1 + log);
         let acceleration = self.scale.velocity_frac.checked_sub(1 + 2 * log + self.scale.acceleration_up);
         [velocity, acceleration].map(|power| match power {
@@ -88,24 +129,19 @@ impl Bound {
 
     /// The largest sum of `s - s' + slack` over the first 1 to `frames` frames.
     #[inline(always)]
-    fn most(&self, one: Motion, other: Motion, slack: i64) -> i64 {
-        let last = self.frames - 1;
-        if self.saturates(one, last) || self.saturates(other, last) {
+    fn most(&self, of: &Relative, slack: i64) -> i64 {
+        if let Some([one, other]) = of.saturating {
             return self.most_in_steps(one, other, slack);
         }
-        // The steps are first, first + 2 change, first + 4 change, ...
-        let change = i64::from(one.acceleration) - i64::from(other.acceleration);
-        let velocity = i64::from(one.velocity) - i64::from(other.velocity);
-        let first = (velocity << 1) + change + slack;
-        let at_end = times(first + times(change, last), self.frames);
-        // Hollow: the largest sum is the first or the last. Straight or arched: the last one if no step goes back.
-        if change >= 0 {
-            return at_end.max(first);
+        // The steps are first, first + 2 change, first + 4 change, ... The largest sum is the first or the last, unless steps that went
+        // ahead go back at the end.
+        let (change, last) = (of.change, self.frames - 1);
+        let first = (of.velocity << 1) + change + slack;
+        let changed = times(change, last);
+        if first > 0 && first + (changed << 1) < 0 {
+            return vertex(first, change, self.frames);
         }
-        if first + (times(change, last) << 1) >= 0 {
-            return at_end;
-        }
-        if first <= 0 { first } else { vertex(first, change, self.frames) }
+        first.max(times(first + changed, self.frames))
     }
 
     /// Whether a velocity leaves its field within `steps` frames.
@@ -113,7 +149,7 @@ impl Bound {
     fn saturates(&self, of: Motion, steps: u32) -> bool {
         let velocity = i64::from(of.velocity) + times(i64::from(of.acceleration), steps);
         let unused = 64 - self.scale.velocity_bits.clamp(1, 32);
-        of.acceleration != 0 && velocity << unused >> unused != velocity
+        velocity << unused >> unused != velocity
     }
 
     /// As [`Self::most`], frame by frame, with clamped velocities.
@@ -140,11 +176,13 @@ impl Bound {
 #[inline(always)]
 fn vertex(first: i64, change: i64, frames: u32) -> i64 {
     let (mut sum, mut step, mut left) = (0i64, first, frames);
-    for power in (0..8).rev() {
+    // As many powers as the frames have bits: a number that is not known before, so that no shifts become products.
+    let powers = (0..8).filter(|power| frames >> power != 0).count() as u32;
+    for power in (0..powers).rev() {
         // 2^power steps more, if they are there and the last of them goes ahead.
-        let last = step + (((change << power) - change) << 1);
+        let last = step - (change << 1) + (change << (power + 1));
         if left >> power != 0 && last > 0 {
-            sum += (step << power) + (((change << power) - change) << power);
+            sum += ((step - change) << power) + (change << (power << 1));
             step += change << (power + 1);
             left -= 1 << power;
         }

@@ -2,9 +2,9 @@
 //!
 //! Four scans, one after the other: along each row to the right, to the left; down each column, up each column. In a scan a cell hands on its
 //! extents, the one that moves with the scan shorter by one, and the next cell takes the larger of these and its own; the
-//! order is that of the memory, and nothing is needed beside the map itself.
+//! order is that of the memory, and nothing is needed beside the map itself. A cell that is shut on the way of a scan takes nothing.
 
-use super::extents::{DOWNWARDS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, larger};
+use super::extents::{DOWNWARDS, EXTENTS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, shorter, taken};
 use crate::grid::Grid;
 
 /// Cells that are passed by at once where nothing is uncovered.
@@ -15,31 +15,41 @@ const BLOCK: usize = 16;
 pub(crate) fn along(row: &mut [u32], carried: u32) {
     let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
     let mut handed = 0;
+    let mut anything = any(rest);
     for block in &mut *blocks {
-        if handed | any(block) != 0 {
+        let own = any(block);
+        if handed | own & reaching::<TO_THE_RIGHT>() != 0 {
             handed = rightwards(block, handed, carried);
         }
+        anything |= own;
     }
     rightwards(rest, handed, carried);
+    if anything & reaching::<TO_THE_LEFT>() == 0 {
+        return;
+    }
     handed = leftwards(rest, 0, carried);
     for block in blocks.iter_mut().rev() {
-        if handed | any(block) != 0 {
+        if handed | any(block) & reaching::<TO_THE_LEFT>() != 0 {
             handed = leftwards(block, handed, carried);
         }
     }
 }
 
-/// Whether anything is uncovered in some cells.
+/// All bits that any of some cells has.
 #[inline(always)]
 fn any(block: &[u32]) -> u32 {
     block.iter().fold(0, |any, word| any | word)
 }
 
+/// Bits of which a cell has one if it hands on anything.
+const fn reaching<const WAY: u32>() -> u32 {
+    0x7e << WAY
+}
+
 #[inline(always)]
 fn rightwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
     for word in block {
-        *word = larger(*word, handed);
-        handed = handed_on::<TO_THE_RIGHT>(*word) & carried;
+        handed = along_by_one::<TO_THE_RIGHT>(word, handed) & carried;
     }
     handed
 }
@@ -47,10 +57,24 @@ fn rightwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
 #[inline(always)]
 fn leftwards(block: &mut [u32], mut handed: u32, carried: u32) -> u32 {
     for word in block.iter_mut().rev() {
-        *word = larger(*word, handed);
-        handed = handed_on::<TO_THE_LEFT>(*word) & carried;
+        handed = along_by_one::<TO_THE_LEFT>(word, handed) & carried;
     }
     handed
+}
+
+/// A cell takes what it is handed; what it hands on.
+#[inline(always)]
+fn along_by_one<const WAY: u32>(word: &mut u32, handed: u32) -> u32 {
+    // Most cells have nothing of their own, or are handed nothing.
+    if *word == 0 {
+        *word = handed;
+        shorter::<WAY>(handed)
+    } else if handed == 0 {
+        handed_on::<WAY>(*word)
+    } else {
+        *word = taken::<WAY>(*word, handed);
+        handed_on::<WAY>(*word)
+    }
 }
 
 /// A row takes what the one before it on the way `WAY` hands on.
@@ -58,7 +82,7 @@ pub(crate) fn across<const WAY: u32>(from: &[u32], to: &mut [u32]) {
     let (blocks, rest) = from.as_chunks::<BLOCK>();
     let (to_blocks, to_rest) = to.as_chunks_mut::<BLOCK>();
     for (from, to) in blocks.iter().zip(to_blocks) {
-        if any(from) != 0 {
+        if any(from) & reaching::<WAY>() != 0 {
             take::<WAY>(from, to);
         }
     }
@@ -68,7 +92,7 @@ pub(crate) fn across<const WAY: u32>(from: &[u32], to: &mut [u32]) {
 #[inline(always)]
 fn take<const WAY: u32>(from: &[u32], to: &mut [u32]) {
     for (&from, to) in from.iter().zip(to) {
-        *to = larger(*to, handed_on::<WAY>(from));
+        *to = taken::<WAY>(*to, handed_on::<WAY>(from));
     }
 }
 
@@ -89,7 +113,7 @@ pub(crate) fn downwards(extents: &mut [u32], start: u32, width: u32) {
     }
 }
 
-/// All rows from the last up take what the one below them hands on; returns how many cells are covered then.
+/// All rows from the last up take what the one below them hands on, and are open again; returns how many cells are covered then.
 pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
     let width = grid.width();
     let mut covered = 0;
@@ -97,8 +121,28 @@ pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
         if let Some((row, below)) = rows(extents, start, width) {
             across::<UPWARDS>(below, row);
         }
-        let row = extents.get(start as usize..(start + width) as usize).unwrap_or_default();
-        covered += row.iter().map(|&word| u32::from(word != 0)).sum::<u32>();
+        let row = extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default();
+        let (blocks, rest) = row.as_chunks_mut::<BLOCK>();
+        for block in blocks {
+            let bits = any(block);
+            if bits & !EXTENTS != 0 {
+                covered += opened(block);
+            } else if bits != 0 {
+                covered += block.iter().map(|&word| u32::from(word != 0)).sum::<u32>();
+            }
+        }
+        covered += opened(rest);
+    }
+    covered
+}
+
+/// Opens some cells; returns how many are covered.
+#[inline(always)]
+fn opened(block: &mut [u32]) -> u32 {
+    let mut covered = 0;
+    for word in block {
+        *word &= EXTENTS;
+        covered += u32::from(*word != 0);
     }
     covered
 }

@@ -5,7 +5,7 @@
 //! cell of its own plus its displacement, if it is the smallest by (class, depth, source) there. So an image whose samples do not
 //! lie where they are seen, as that of a depth discontinuity occlusion camera, moves like any other.
 
-use crate::constant::{below, merge, merge_word};
+use crate::constant::{below, empty, merge, merge_word, opaque};
 use crate::frame::Work;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -64,7 +64,7 @@ impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
             }
             for (x, source) in (0..grid.width() as i32).zip(start..) {
                 let class = self.stored.class(source) as u32;
-                let there = below(class, Class::Empty as u32);
+                let there = opaque(below(class, Class::Empty as u32));
                 if work == Work::Skipping && there == 0 {
                     continue;
                 }
@@ -80,18 +80,18 @@ impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
                 }
                 let [dx, dy] = displacement(*place);
                 let cell = grid.cell(x + dx, y + dy);
-                let within = (cell.is_some() as u32).wrapping_neg();
+                let within = opaque((cell.is_some() as u32).wrapping_neg());
                 let cell = cell.unwrap_or(0);
                 let incumbent = drawn.key_at(cell).unwrap_or(0);
                 let key = resolve::key(record, &words);
                 let challenges = there & within;
                 // In raster order the incumbent has the smaller source: of equal keys it stays.
-                let wins = challenges & below(key, incumbent);
+                let wins = opaque(challenges & below(key, incumbent));
                 merge(drawn, cell, &words, wins);
                 merge_word(winners, cell, source, wins);
                 tally.moved += there & 1;
                 tally.lost += there & !within & 1;
-                tally.collided += challenges & below(drawn.class_of(incumbent), Class::Empty as u32) & 1;
+                tally.collided += challenges & !empty(drawn.class_of(incumbent)) & 1;
             }
         }
         tally

@@ -93,7 +93,9 @@ fn exchange<L: Layout, B: Budget<L>>(
     }
     let mut masks = [0; RUN];
     for (lane, mask) in masks.iter_mut().enumerate() {
-        *mask = (seats >> lane & 1).wrapping_neg();
+        let seated = (seats >> lane & 1).wrapping_neg();
+        // A compiler that knows what it is may multiply by the bit; one with vector registers is to know it.
+        *mask = if VECTORS { seated } else { opaque(seated) };
     }
     for (base, layer) in planes {
         let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };

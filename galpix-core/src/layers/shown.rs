@@ -7,7 +7,7 @@ use crate::galpixmap::Galpixmap;
 use crate::layers::layer::Layer;
 use crate::layers::seat;
 use crate::layout::Layout;
-use crate::record::Words;
+use crate::record::{Record, Words};
 
 /// The front maps, each with its own galpixels, and where the layers had and have their seats.
 pub(super) struct Shown<'s, 'p, L, B, const HIDDEN: usize> {
@@ -16,6 +16,11 @@ pub(super) struct Shown<'s, 'p, L, B, const HIDDEN: usize> {
 }
 
 impl<L: Layout, B: Budget<L>, const HIDDEN: usize> Around for Shown<'_, '_, L, B, HIDDEN> {
+    #[inline(always)]
+    fn record(&self) -> &Record {
+        self.front.record()
+    }
+
     #[inline(always)]
     fn before(&self, cell: u32) -> Option<Words> {
         let mut shown = self.front.words_at(cell)?;

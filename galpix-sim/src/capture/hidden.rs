@@ -70,7 +70,7 @@ pub(super) fn read(
     Ok(Some(update))
 }
 
-/// What other pictures of the still scene see behind the first layer: in each cell the nearest sample that lies behind by the separation.
+/// What other pictures of the still scene see behind the first layer: in each cell the nearest surface that lies behind by the separation.
 ///
 /// Each pixel of a view is lifted with its depth and projected into the update's camera, and so are the places half way between pixels of
 /// one surface, so that no cracks open where the view is coarser. A sample is put into the middle of the cell that it falls into, at most half a
@@ -85,6 +85,7 @@ fn seen_from_elsewhere(
 ) -> Result<(Picture, Vec<Distance>), CaptureError> {
     let mut picture = Picture::filled(size.width, size.height, [0; 3]);
     let mut nearest = vec![Distance::Unknown; size.cells()];
+    let mut off = vec![0.0; size.cells()];
     // A manifest with another motion was refused.
     let Motion::Camera(camera) = &manifest.update.motion else { return Ok((picture, nearest)) };
     let path = poses::read(camera, folder)?;
@@ -97,7 +98,8 @@ fn seen_from_elsewhere(
         for (place, z, colour) in lattice(&colours, &distances, size) {
             let ray = [(place[0] - cx) / fx, (place[1] - cy) / fy, 1.0];
             let [px, py, pz] = between.apply(ray.map(|v| v * z), 1.0);
-            let (x, y) = ((cx + fx * px / pz).round(), (cy + fy * py / pz).round());
+            let seen = [cx + fx * px / pz, cy + fy * py / pz];
+            let [x, y] = seen.map(f64::round);
             let inside = pz > 0.0 && (0.0..size.width as f64).contains(&x) && (0.0..size.height as f64).contains(&y);
             if !inside {
                 continue;
@@ -108,9 +110,16 @@ fn seen_from_elsewhere(
                 Some(Distance::Unknown) => true,
                 Some(Distance::Far) | None => false,
             };
-            let nearer = !matches!(nearest[cell], Distance::At(there) if there <= pz);
-            if hidden && nearer {
+            let beside = (seen[0] - x).hypot(seen[1] - y);
+            let better = match nearest[cell] {
+                // Of one surface what is nearer to the middle of the cell, of two the nearer surface.
+                Distance::At(there) if (there - pz).abs() <= SAME_SURFACE * there.min(pz) => beside < off[cell],
+                Distance::At(there) => pz < there,
+                Distance::Far | Distance::Unknown => true,
+            };
+            if hidden && better {
                 nearest[cell] = Distance::At(pz);
+                off[cell] = beside;
                 picture.pixels[cell] = colour;
             }
         }

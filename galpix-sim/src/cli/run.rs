@@ -33,6 +33,7 @@ impl Run {
         let request = Request { way: self.hidden.way(), ..self.extrapolation.request() };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         check(&source, &request)?;
+        experiment::check_way(&source, request.way).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
         let frames = request.frames.unwrap_or(source.frames());

@@ -11,15 +11,21 @@ use rayon::prelude::*;
 /// Two samples are the same if their inverse distances differ by no more than this share.
 const SAME: f32 = 0.03;
 
-/// Missing samples of frames made from some reference images.
+/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample but a part of
+/// an outline, which no image of samples has more exactly.
+pub const TOLERANCE: usize = 1;
+
+/// What the frames of one view lack.
 #[derive(Clone, Debug)]
 pub struct Missing {
     /// The view's eye.
     pub eye: Place,
     /// Samples of the truth.
     pub truth: u32,
-    /// For each reference image, samples of the truth that are not in its frame.
+    /// For each reference image, samples of the truth that are not in its frame within [`TOLERANCE`].
     pub missing: Vec<u32>,
+    /// The same without a tolerance.
+    pub strict: Vec<u32>,
 }
 
 /// Where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds the same depth.
@@ -55,20 +61,23 @@ pub fn desired(eye: Place, size: usize) -> View {
     View::new(eye, width, width * 3 / 4, 45.0)
 }
 
-/// What frames lack that are made from each of `references`, view by view. `near`: as in [`mask`].
+/// What frames lack that are made from each of `references`, view by view.
 #[must_use]
-pub fn count(world: &World, size: usize, references: &[(&Reference, Joint)], near: usize) -> Vec<Missing> {
+pub fn count(world: &World, size: usize, references: &[(&Reference, Joint)]) -> Vec<Missing> {
     cube(world.half_side)
         .into_par_iter()
         .map(|eye| {
             let view = desired(eye, size);
             let truth = reference::plain(world, &view).raster;
-            let lacks = |(reference, joint): &(&Reference, Joint)| {
+            let mut found = Missing { eye, truth: 0, missing: Vec::new(), strict: Vec::new() };
+            found.truth = truth.nearness.iter().filter(|&&nearness| nearness > 0.0).count() as u32;
+            for (reference, joint) in references {
                 let frame = warp(reference, &view, joint);
-                mask(&truth, &frame, near).iter().filter(|&&missing| missing).count() as u32
-            };
-            let missing = references.iter().map(lacks).collect();
-            Missing { eye, truth: truth.nearness.iter().filter(|&&nearness| nearness > 0.0).count() as u32, missing }
+                let lacks = |near| mask(&truth, &frame, near).iter().filter(|&&missing| missing).count() as u32;
+                found.missing.push(lacks(TOLERANCE));
+                found.strict.push(lacks(0));
+            }
+            found
         })
         .collect()
 }

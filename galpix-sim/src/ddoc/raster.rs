@@ -41,10 +41,12 @@ impl<const N: usize> Raster<N> {
         let ((left, right), (top, bottom)) = (across(0), across(1));
         // `as` saturates: what is left of the picture starts at 0.
         let (first_x, first_y) = (left.ceil().max(0.0) as usize, top.ceil().max(0.0) as usize);
-        if !(right >= 0.0 && bottom >= 0.0) {
+        let begins = right >= 0.0 && bottom >= 0.0;
+        if !begins {
             return;
         }
-        let (end_x, end_y) = (self.width.min(right.floor() as usize + 1), self.height.min(bottom.floor() as usize + 1));
+        let end = |last: f64| (last.floor() as usize).saturating_add(1);
+        let (end_x, end_y) = (self.width.min(end(right)), self.height.min(end(bottom)));
         if first_x >= end_x || first_y >= end_y {
             return;
         }
@@ -52,7 +54,8 @@ impl<const N: usize> Raster<N> {
             (to.at[0] - from.at[0]) * (y - from.at[1]) - (to.at[1] - from.at[1]) * (x - from.at[0])
         };
         let area = edge(a, b, c.at[0], c.at[1]);
-        if !(area.abs() > 1e-12) {
+        let has_area = area.abs() > 1e-12;
+        if !has_area {
             return;
         }
         let inverse = 1.0 / area;

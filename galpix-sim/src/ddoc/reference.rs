@@ -72,7 +72,8 @@ pub fn ddoc(world: &World, size: usize, settings: &Settings) -> Result<Ddoc, Set
     for &triangle in &world.triangles {
         view.in_front(&world.triangle(triangle), CLIPPED * world.near, |corners| {
             let pins = [0, 1, 2].map(|i| pin(&view, world.near, &corners[i]));
-            subdivide(&mut raster, &map, &view, world.near, corners, &pins);
+            let seen_by = SeenBy { map: &map, view: &view, near: world.near, reach: f64::from(settings.radius) + 1.0 };
+            subdivide(&mut raster, &seen_by, corners, &pins);
         });
     }
     let drawn_after = started.elapsed().as_secs_f64();
@@ -86,19 +87,21 @@ pub fn ddoc(world: &World, size: usize, settings: &Settings) -> Result<Ddoc, Set
     })
 }
 
+/// The DDOC.
+struct SeenBy<'m> {
+    map: &'m DistortionMap<'m>,
+    view: &'m View,
+    near: f64,
+    /// Nothing is moved farther, pixels.
+    reach: f64,
+}
+
 /// Draws a triangle with the DDOC: halves it along its longest edge until none is longer than a pixel in the plain image, then
 /// moves its corners (equation 1).
-fn subdivide(
-    raster: &mut Raster<5>,
-    map: &DistortionMap<'_>,
-    view: &View,
-    near: f64,
-    corners: &[Corner; 3],
-    pins: &[Pin<5>; 3],
-) {
+fn subdivide(raster: &mut Raster<5>, by: &SeenBy<'_>, corners: &[Corner; 3], pins: &[Pin<5>; 3]) {
+    let SeenBy { map, view, near, reach } = *by;
     // What is nowhere near the picture is not moved into it.
     let outside = |axis: usize, size: usize| {
-        let reach = 256.0;
         let all = |beyond: &dyn Fn(f64) -> bool| pins.iter().all(|pin| beyond(pin.at[axis]));
         all(&|at| at < -reach) || all(&|at| at > size as f64 + reach)
     };
@@ -119,7 +122,7 @@ fn subdivide(
             ([corners[from], middle, corners[rest]], [pins[from], middle_pin, pins[rest]]),
             ([middle, corners[to], corners[rest]], [middle_pin, pins[to], pins[rest]]),
         ] {
-            subdivide(raster, map, view, near, &of, &pins_of);
+            subdivide(raster, by, &of, &pins_of);
         }
         return;
     }

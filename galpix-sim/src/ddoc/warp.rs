@@ -43,6 +43,30 @@ pub fn warp(reference: &Reference, view: &View, joint: &Joint) -> Raster<3> {
         let step = (raster.nearness[a] - raster.nearness[b]).abs();
         apart <= joint.reach && step <= joint.step * apart.max(1.0)
     };
+    // Where the mesh is cut, a sample goes on to the border of its pixel: half a pixel of the plain image.
+    let beside = |x: usize, y: usize, index: usize| {
+        [
+            (x > 0).then(|| index - 1),
+            (x + 1 < width).then_some(index + 1),
+            (y > 0).then(|| index - width),
+            (y + 1 < height).then_some(index + width),
+        ]
+    };
+    for (index, of) in pins.iter().enumerate() {
+        let Some(of) = of else { continue };
+        if beside(index % width, index / width, index).into_iter().flatten().all(|other| joined(index, other)) {
+            continue;
+        }
+        let z = near / f64::from(raster.nearness[index]);
+        let [u, v] = undistorted(index).map(f64::from);
+        let corner = |[x, y]: [f64; 2]| {
+            let [u, v, z] = view.project(reference.view.unproject([u + x, v + y], z));
+            Pin { at: [u, v], nearness: near / z, carried: of.carried }
+        };
+        let [a, b, c, d] = [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]].map(corner);
+        frame.draw([&a, &b, &c]);
+        frame.draw([&b, &d, &c]);
+    }
     let mut triangle = |of: [usize; 3]| {
         if let [Some(a), Some(b), Some(c)] = of.map(|index| &pins[index]) {
             if joined(of[0], of[1]) && joined(of[1], of[2]) && joined(of[2], of[0]) {

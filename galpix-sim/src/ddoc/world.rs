@@ -80,7 +80,8 @@ impl World {
             sheet::triangles(*surface, &lattice, 0.0, |nodes| {
                 let corner = |node: &Node| {
                     let at = [0, 1].map(|axis: usize| node.at[axis] - middle[axis]);
-                    let z = 1.0 / (1.0 - node.hit.depth);
+                    // What is infinitely far is far enough.
+                    let z = 1.0 / (1.0 - node.hit.depth).max(1e-4);
                     let colour = surface.colour(node.hit.point).map(|channel| channel as f32);
                     Corner { place: view.unproject(at, z), colour }
                 };

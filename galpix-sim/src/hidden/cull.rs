@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use galpix_core::disocclusion::{self, Border, Reach, Tally};
+use galpix_core::disocclusion::{self, Reach, Tally};
 use galpix_core::galpixel::Chosen;
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::Grid;
@@ -41,8 +41,7 @@ pub fn culling<L: Layout>(update: &Update, budget: Chosen<L>, frames: u32) -> Re
     let mut map = Galpixmap::<L, _>::new(grid, budget, &mut memory)?;
     load(update, &mut map);
     let mut extents = vec![0; grid.cells() as usize];
-    let reach =
-        Reach { border: Border::Continues, tears: false, ..Reach::new(frames, u32::from(map.record().depth().bits)) };
+    let reach = Reach { tears: false, ..Reach::new(frames, u32::from(map.record().depth().bits)) };
     let started = ThreadTime::now();
     let tally = disocclusion::map(&map, &mut extents, &reach);
     Ok(Culling { extents, tally, time: started.elapsed() })

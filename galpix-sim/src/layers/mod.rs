@@ -42,6 +42,7 @@ pub fn ways(separation: f64) -> Vec<Way> {
         Way { kind: Kind::Second { separation: 0.0 }, ..whole },
         Way { arrangement: Arrangement::Nearer, ..whole },
         whole,
+        Way { kind: Kind::Ddoc { radius: RADIUS }, arrangement: Arrangement::Nearer, ..whole },
         Way { kind: Kind::Ddoc { radius: RADIUS }, ..whole },
         Way { kind: Kind::Unlimited, ..whole },
     ];
@@ -69,12 +70,7 @@ pub enum Study {
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn study(source: &Source, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, ExperimentError> {
-    let mut ways = Vec::new();
-    for &way in &plan.ways {
-        if hidden::offered(source, way.kind)?.is_some() {
-            ways.push(way);
-        }
-    }
+    let ways: Vec<Way> = plan.ways.iter().copied().filter(|way| hidden::has(source, way.kind)).collect();
     if ways.iter().all(|way| way.kind == Kind::None) {
         return Ok(Study::NothingHidden);
     }

@@ -30,7 +30,7 @@ ever showed. <b>Culled</b>: only what the disocclusion map says can be uncovered
 not connected with the border. <b>PSNR</b> and <b>FLIP</b> (0 for equals) are of the whole picture after holes were filled, means over the frames; \
 <b>there</b> is the PSNR of the disoccluded cells.</li>\
 <li><b>Behind</b>: what is behind the first layer is in a layer of its own. Else what covers something is in a layer of its own, and what is behind it is with \
-the rest. <b>Unlimited</b>, each surface whole in a layer of its own, is a bound and no way to ship.</li>\
+the rest. <b>DDOC</b>: what a depth discontinuity occlusion camera sees around edges, in an anchored layer. <b>Unlimited</b>, each surface whole in a layer of its own, is a bound and no way to ship.</li>\
 <li><b>Time</b> is that of the whole frame with its fill on one core, in the form whose budget is chosen at run time: the median, by that of the first layer \
 alone (<b>\u{00D7} one</b>) and by a memory copy of its map in the same run (<b>\u{00D7} copy</b>).</li>\
 </ul></section>";

@@ -44,8 +44,8 @@ impl Scene for NearPlane {
                 shape: |u, v| u.abs() <= HALF_WIDTH && (CEILING..=FLOOR).contains(&v),
                 paint: end,
             },
-            &Plane { lens: LENS, origin: [0.0, FLOOR, 0.0], u: X, v: Z, shape: |_, z| z <= END, paint: floor },
-            &Plane { lens: LENS, origin: [0.0, CEILING, 0.0], u: X, v: Z, shape: |_, z| z <= END, paint: ceiling },
+            &Plane { lens: LENS, origin: [0.0, FLOOR, 0.0], u: X, v: Z, shape: level, paint: floor },
+            &Plane { lens: LENS, origin: [0.0, CEILING, 0.0], u: X, v: Z, shape: level, paint: ceiling },
             &Plane { lens: LENS, origin: [-HALF_WIDTH, 0.0, 0.0], u: Z, v: Y, shape: in_corridor, paint: left },
             &Plane { lens: LENS, origin: [HALF_WIDTH, 0.0, 0.0], u: Z, v: Y, shape: in_corridor, paint: right },
             &Column { lens: LENS, axis: [0.62, 2.45], radius: 0.11, reach: [CEILING, FLOOR], paint: post },
@@ -60,6 +60,11 @@ const FLOOR: f64 = 0.7;
 const CEILING: f64 = -1.31;
 const HALF_WIDTH: f64 = 1.507;
 const END: f64 = 8.5;
+
+/// Floor and ceiling end a little behind the walls: no gap is between them, and nothing is behind the walls.
+fn level(x: f64, z: f64) -> bool {
+    z <= END && x.abs() <= HALF_WIDTH + 0.05
+}
 
 fn in_corridor(z: f64, y: f64) -> bool {
     z <= END && (CEILING..=FLOOR).contains(&y)

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::jet::Path;
 use super::solid::{Column, Lens, Plane};
-use super::surface::{Surface, endless};
+use super::surface::Surface;
 use super::texture::{Rgb, bricks, cell, checks, cover, gradient, hex, length, lit, mix, noise, rect, sign, stripes};
 
 /// Scene `pillars`.
@@ -28,13 +28,13 @@ impl Scene for Pillars {
 
     fn surfaces(&self) -> &[&dyn Surface] {
         const SURFACES: &[&dyn Surface] = &[
-            &wall_across(14.0, 0.0, 0.0, endless, back_wall),
+            &wall_across(WALL, 0.0, 0.0, |_, v| v <= FLOOR + OVERLAP, back_wall),
             &Plane {
                 lens: LENS,
                 origin: [0.0, FLOOR, 0.0],
                 u: [1.0, 0.0, 0.0],
                 v: [0.0, 0.0, 1.0],
-                shape: endless,
+                shape: |_, z| z <= WALL + OVERLAP,
                 paint: floor,
             },
             &pillar(-1.15, 3.9, 0.26, terracotta),
@@ -51,6 +51,12 @@ impl Scene for Pillars {
 
 /// World height of the floor; y points down.
 const FLOOR: f64 = 1.3;
+
+/// Distance of the back wall.
+const WALL: f64 = 14.0;
+
+/// Wall and floor end behind each other: so nothing is behind them that a hall does not have, and no gap is between them.
+const OVERLAP: f64 = 0.05;
 
 /// The step sideways gives 2.8 pixels a frame at the nearest pillar, 0.8 at the back wall.
 const LENS: &Lens = &Lens {

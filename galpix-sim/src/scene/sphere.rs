@@ -3,7 +3,7 @@
 use super::Scene;
 use super::jet::Path;
 use super::solid::{Globe, Lens, Plane};
-use super::surface::{Surface, endless};
+use super::surface::Surface;
 use super::texture::{Rgb, bricks, cell, checks, cover, gradient, hex, lit, mix, noise};
 
 /// Scene `sphere`.
@@ -30,18 +30,18 @@ impl Scene for Sphere {
         const SURFACES: &[&dyn Surface] = &[
             &Plane {
                 lens: LENS,
-                origin: [0.0, 0.0, 12.0],
+                origin: [0.0, 0.0, WALL],
                 u: [1.0, 0.0, 0.0],
                 v: [0.0, 1.0, 0.0],
-                shape: endless,
+                shape: |_, v| v <= FLOOR + OVERLAP,
                 paint: wall,
             },
             &Plane {
                 lens: LENS,
-                origin: [0.0, 1.4, 0.0],
+                origin: [0.0, FLOOR, 0.0],
                 u: [1.0, 0.0, 0.0],
                 v: [0.0, 0.0, 1.0],
-                shape: endless,
+                shape: |_, z| z <= WALL + OVERLAP,
                 paint: floor,
             },
             &Globe {
@@ -54,6 +54,13 @@ impl Scene for Sphere {
         SURFACES
     }
 }
+
+/// World height of the floor, and distance of the wall.
+const FLOOR: f64 = 1.4;
+const WALL: f64 = 12.0;
+
+/// Wall and floor end behind each other: so nothing is behind them that a room does not have, and no gap is between them.
+const OVERLAP: f64 = 0.05;
 
 const LENS: &Lens = &Lens {
     focal: 170.0,

@@ -1,25 +1,27 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
 //! `proof_*` must reach no panic, no multiplication, no division and no float, but for `proof_inpaint_*` and `proof_submit_*`, which may multiply;
+//! `distorted_*` must reach no panic;
 //! `planted_*` each reach one of them on purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
 //! settings come from outside.
 
 #![no_std]
 
 use galpix_core::budget::{Bits, Demand};
+use galpix_core::disocclusion::Reach;
 use galpix_core::frame::{self, Controller, Inpainting, Scratch, Settings, Work};
 use galpix_core::galpixel::{Profile, Static};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::Pyramid;
-use galpix_core::layers::Layers;
+use galpix_core::layers::{Layers, LayersTally};
 use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4};
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
-use galpix_core::{edge, fill, scan_out, sweep};
+use galpix_core::{disocclusion, edge, fill, scan_out, sweep};
 
 const DEMAND: Demand = Demand { extent: 512, recog: 8, prop: 16 };
 
@@ -41,7 +43,7 @@ impl Profile for PanelVelocity {
 
 macro_rules! proofs {
     ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
-        $scan_out:ident, $inpaint:ident, $rolling:ident, $overlay:ident;)*) => {$(
+        $scan_out:ident, $inpaint:ident, $rolling:ident, $overlay:ident, $disocclusion:ident, $cover:ident, $layers:ident;)*) => {$(
         /// Propagation and resolution.
         #[unsafe(no_mangle)]
         pub fn $sweep(
@@ -118,6 +120,38 @@ macro_rules! proofs {
             rolling.inpaint(settings, inpainting, pyramid)
         }
 
+        /// The disocclusion map, marked and spread in raster order.
+        #[unsafe(no_mangle)]
+        pub fn $disocclusion(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            extents: &mut [u32],
+            reach: &Reach,
+        ) -> disocclusion::Tally {
+            disocclusion::map(front, extents, reach)
+        }
+
+        /// Its cells, a bit each, with a line of memory.
+        #[unsafe(no_mangle)]
+        pub fn $cover(
+            front: &Galpixmap<'_, $layout, Static<$profile>>,
+            line: &mut [u32],
+            mask: &mut [u32],
+            reach: &Reach,
+        ) -> disocclusion::Tally {
+            disocclusion::cover(front, line, mask, reach)
+        }
+
+        /// A frame of three layers, any of which but the base may be anchored, and what they showed before it.
+        #[unsafe(no_mangle)]
+        pub fn $layers(
+            layers: &mut Layers<'_, $layout, Static<$profile>, 2>,
+            settings: &Settings,
+            cell: u32,
+        ) -> (usize, LayersTally<2>) {
+            layers.resolve(settings.work);
+            (layers.layer_at(cell), layers.step(settings))
+        }
+
         /// A row for a display of 16-bit words.
         #[unsafe(no_mangle)]
         pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
@@ -174,18 +208,44 @@ object_proofs! {
 
 proofs! {
     Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full,
-        proof_inpaint_full, proof_inpaint_rolling_full, proof_overlay_full;
+        proof_inpaint_full, proof_inpaint_rolling_full, proof_overlay_full, proof_disocclusion_full, proof_cover_full, proof_layers_full;
     Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded,
-        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_overlay_shaded;
+        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_overlay_shaded, proof_disocclusion_shaded, proof_cover_shaded, proof_layers_shaded;
     Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
         proof_scan_out_flat565,
-        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_overlay_flat565;
+        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_overlay_flat565, proof_disocclusion_flat565, proof_cover_flat565, proof_layers_flat565;
     Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
         proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565,
-        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_overlay_velocity565;
+        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_overlay_velocity565, proof_disocclusion_velocity565, proof_cover_velocity565, proof_layers_velocity565;
     VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
         proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
-        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4;
+        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4, proof_disocclusion_velocity_gray4, proof_cover_velocity_gray4, proof_layers_velocity_gray4;
+}
+
+mod distorted {
+    //! The distortion map of the DDOC: it multiplies and divides, and reaches no panic.
+
+    use galpix_core::ddoc::splat::Splat;
+    use galpix_core::ddoc::{DistortionMap, Settings, Tally};
+    use galpix_core::grid::Grid;
+
+    /// The map from depths.
+    #[unsafe(no_mangle)]
+    pub fn distorted_map(
+        grid: &Grid<'_>,
+        depths: &[u32],
+        settings: &Settings,
+        owners: &mut [u32],
+        splats: &mut [Splat],
+    ) -> Tally {
+        DistortionMap::new(*grid, depths, settings, owners, splats).map(|(_, tally)| tally).unwrap_or_default()
+    }
+
+    /// One place.
+    #[unsafe(no_mangle)]
+    pub fn distorted_place(map: &DistortionMap<'_>, place: &[i32; 2], depth: u32, to: &mut [i32; 2]) {
+        *to = map.displaced(*place, depth);
+    }
 }
 
 mod planted {

@@ -4,10 +4,10 @@
 //! optimisation. From each of its `proof_*` symbols on, everything that can be reached is visited (see [`library`]) and
 //! disassembled (see [`instructions`]).
 //!
-//! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame, one with constant work, scan-out with and without an overlay, and the replacing of objects, for each layout there, with
+//! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame, one with constant work, one of three layers, scan-out with and without an overlay, and the replacing of objects, for each layout there, with
 //! a budget fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide, float or
-//! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. Of push-pull the same, but that
-//! it multiplies, by an instruction and not by a helper. **Not
+//! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. Of push-pull and the disocclusion map the same, but that
+//! it multiplies, by an instruction and not by a helper. Of the distortion map only that no panic can be reached. **Not
 //! proved:** the same for other layouts, for setting up a map, for budgets chosen at run time, or with overflow checks on.
 //!
 //! The `planted_*` symbols each do one of these things and must be found.
@@ -65,9 +65,10 @@ fn build(target: &str, profile: &str) -> Option<Library> {
     Some(Library::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", file.display())))
 }
 
-/// What an entry of this name may do: push-pull takes means by weights, and a rectangle's cells are counted at the border.
+/// What an entry of this name may do: push-pull takes means by weights, a rectangle's cells are counted at the border, and the
+/// disocclusion map is made once an update.
 fn allowed(entry: &str) -> Option<Deed> {
-    ["proof_inpaint_", "proof_submit_", "planted_inpaint_"]
+    ["proof_inpaint_", "proof_submit_", "proof_disocclusion_", "proof_cover_", "planted_inpaint_"]
         .iter()
         .any(|inpaints| entry.starts_with(inpaints))
         .then_some(Deed::Multiply)
@@ -82,11 +83,11 @@ fn passes_are_clean((target, machine): (&str, Machine)) {
     for profile in PROFILES {
         let Some(library) = build(target, profile) else { return };
         let entries = library.entries("proof_");
-        assert_eq!(entries.len(), 49, "nine passes of five layouts, and two for objects of two: {entries:?}");
+        assert_eq!(entries.len(), 64, "twelve passes of five layouts, and two for objects of two: {entries:?}");
         assert_eq!(
             entries.iter().filter(|entry| allowed(entry).is_some()).count(),
-            12,
-            "two of them inpaint, one takes objects"
+            22,
+            "two of them inpaint, two are made once an update, one takes objects"
         );
         for entry in entries {
             let verdict = judged(machine, &library, &entry);
@@ -108,6 +109,24 @@ fn codegen_is_clean_on_armv6m() {
 #[test]
 fn codegen_is_clean_on_rv32imac() {
     passes_are_clean(RISCV);
+}
+
+#[test]
+fn codegen_of_the_distortion_map_reaches_no_panic() {
+    for (target, machine) in [THUMB, RISCV] {
+        for profile in PROFILES {
+            let Some(library) = build(target, profile) else { continue };
+            let entries = library.entries("distorted_");
+            assert_eq!(entries, ["distorted_map", "distorted_place"]);
+            for entry in entries {
+                let verdict = judged(machine, &library, &entry);
+                assert!(verdict.instructions > 10, "{entry} is a stub of {} instructions", verdict.instructions);
+                let panics = |finding: &&verdict::Finding| matches!(finding.fault, Fault::Panic | Fault::Unknown);
+                let found: Vec<String> = verdict.findings.iter().filter(panics).map(ToString::to_string).collect();
+                assert!(found.is_empty(), "{target} {profile}: {}", found.join("\n"));
+            }
+        }
+    }
 }
 
 #[test]

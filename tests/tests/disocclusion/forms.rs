@@ -13,6 +13,8 @@ use galpix_tests::profiles::{Odd, Paper, Slide, Uneven};
 use galpix_tests::{packed, random};
 use rand::RngExt;
 
+/// The bits of a word that are extents.
+const EXTENTS: u32 = 0x7f7f_7f7f;
 const STALE: u32 = 0x3c5a_7e11;
 
 /// Both spreadings of the same marks.
@@ -30,14 +32,11 @@ fn spread_both(width: u32, height: u32, marks: &[u32]) -> Vec<u32> {
 
 #[test]
 fn raster_and_doubling_agree_on_all_short_rows_and_columns() {
-    let words: Vec<u32> = (0..18)
-        .map(|n| Extents { left: n % 3, right: n / 3 % 3, above: n / 9 + 1, below: 2 - n / 9 }.word())
+    let words: Vec<u32> = (0..12)
+        .map(|n| Extents { left: n % 2 * 2, right: n / 2 % 3, above: n / 6 + 1, below: 2 - n / 6 }.word())
         .chain([0, Extents { left: 4, right: 3, above: 1, below: 9 }.word()])
         .collect();
-    let turned = |word: u32| {
-        let Extents { left, right, above, below } = Extents::of(word);
-        Extents { left: above, right: below, above: left, below: right }.word()
-    };
+    let turned = |word: u32| word.rotate_left(16);
     let count = words.len();
     for number in 0..count.pow(4) {
         let row = [0, 1, 2, 3].map(|cell| words[number / count.pow(cell) % count]);
@@ -53,12 +52,18 @@ fn raster_and_doubling_agree_on_random_marks() {
     let mut generator = random::generator(44);
     for _ in 0..600 {
         let (width, height) = (generator.random_range(1..70), generator.random_range(1..40));
-        let (dense, long) = (generator.random_range(1..60), generator.random_range(2..256));
+        let (dense, long) = (generator.random_range(1..60), [2, 5, 20, 128][generator.random_range(0..4)]);
         let marks: Vec<u32> = (0..width * height)
             .map(|_| {
                 let mut extent = || generator.random_range(0..long) as u8;
                 let extents = Extents { left: extent(), right: extent(), above: extent(), below: extent() };
-                if generator.random_range(0..60) < dense { extents.word() } else { 0 }
+                let word = if generator.random_range(0..60) < dense { extents.word() } else { 0 };
+                // Shut on some ways.
+                if generator.random_range(0..8) == 0 {
+                    word | generator.random_range(0..16) * 0x0810_2040 & !EXTENTS
+                } else {
+                    word
+                }
             })
             .collect();
         spread_both(width, height, &marks);
@@ -112,31 +117,38 @@ impl Reference<'_> {
         (-(-ahead >> scale.position_frac)).max(0)
     }
 
-    /// What two neighbours uncover: by the first and by the second.
-    fn pair(&self, along: usize, first: Body, second: Body) -> Option<[[i128; 4]; 2]> {
+    /// What two neighbours uncover: by the first and by the second. And on which way, backwards or onwards, one of them is shut.
+    fn pair(&self, along: usize, first: Body, second: Body) -> (Option<[[i128; 4]; 2]>, [bool; 2]) {
         let across = 1 - along;
         let motion = |body: Body| body.map_or([Motion::default(); 2], |(_, motion)| motion);
         let (one, other) = (motion(first), motion(second));
         let gap = self.cells(along, other[along], one[along]);
-        if gap == 0 {
-            return None;
-        }
         let key = |body: Body| body.map_or(i64::from(i32::MAX), |(key, _)| key);
         let farther = key(second) - key(first);
         let one_surface = farther.abs() < i64::from(self.reach.separation.min(1 << 30));
-        let [exactly, _] = self.ahead(along, other[along], one[along]);
-        if one_surface && exactly < 2i128 << self.record.scales[along].velocity_frac {
-            return None;
+        let parts = |component: usize, one: Motion, other: Motion| {
+            let [exactly, _] = self.ahead(component, one, other);
+            self.reach.frames > 0 && exactly >= 2i128 << self.record.scales[component].velocity_frac
+        };
+        let apart = [0, 1].into_iter().any(|component| {
+            let [one, other] = [one[component], other[component]];
+            self.cells(component, one, other) >= 2 || self.cells(component, other, one) >= 2
+        });
+        let closes = !self.reach.through && !one_surface && apart;
+        let shut = [closes && farther < 0, closes && farther > 0];
+        if gap == 0 || one_surface && !parts(along, other[along], one[along]) {
+            return (None, shut);
         }
         let onwards = self.cells(across, other[across], one[across]) + 1;
         let backwards = self.cells(across, one[across], other[across]) + 1;
         // Backwards and onwards along, backwards and onwards across.
         let leaves = [farther >= 0 || one_surface, farther <= 0 || one_surface];
         let extents = [[gap, 1, onwards, backwards], [1, gap, backwards, onwards]];
-        Some([0, 1].map(|of| {
+        let extents = [0, 1].map(|of| {
             let [a, b, c, d] = if leaves[of] { extents[of] } else { [0; 4] };
             if along == 0 { [a, b, c, d] } else { [c, d, a, b] }
-        }))
+        });
+        (Some(extents), shut)
     }
 }
 
@@ -164,20 +176,26 @@ fn reference<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, reach: &Reach
             if let Some(cell) = grid.cell(x, y)
                 && body(x, y).is_none()
             {
-                extents[cell as usize] = extents[cell as usize].map(|extent| extent.max(1));
+                extents[cell as usize] = extents[cell as usize].map(|extent| extent & 0x80 | (extent & 0x7f).max(1));
             }
             for (along, (dx, dy)) in [(1, 0), (0, 1)].into_iter().enumerate() {
                 let cells = [grid.cell(x, y), grid.cell(x + dx, y + dy)];
                 if cells == [None, None] || cells.contains(&None) && reach.border == Border::Continues {
                     continue;
                 }
-                let Some(by) = of.pair(along, body(x, y), body(x + dx, y + dy)) else { continue };
+                let (by, shut) = of.pair(along, body(x, y), body(x + dx, y + dy));
+                for (shut, (cell, way)) in shut.into_iter().zip(cells.into_iter().zip([2 * along, 2 * along + 1])) {
+                    if shut && let Some(cell) = cell {
+                        extents[cell as usize][way] |= 0x80;
+                    }
+                }
+                let Some(by) = by else { continue };
                 tally.edges += 1;
-                tally.cut += u32::from(by.as_flattened().iter().any(|&extent| extent > 255));
+                tally.endless += u32::from(by.as_flattened().iter().any(|&extent| extent >= 127));
                 for (cell, by) in cells.into_iter().zip(by) {
                     let Some(cell) = cell else { continue };
                     for (to, extent) in extents[cell as usize].iter_mut().zip(by) {
-                        *to = (*to).max(extent.min(255) as u8);
+                        *to = *to & 0x80 | (*to & 0x7f).max(extent.min(127) as u8);
                     }
                 }
             }
@@ -236,7 +254,7 @@ fn check<L: Layout, P: Profile>(seed: u64) {
         let separation = [0, 1, 3, 1 << budget.record().depth().bits >> 6, u32::MAX][generator.random_range(0..5)];
         let frames = [0, 1, 2, 3, 16, 60, 255, 300][generator.random_range(0..8)];
         let border = if generator.random() { Border::Still } else { Border::Continues };
-        let reach = Reach { frames, separation, border, tears: true };
+        let reach = Reach { frames, separation, border, tears: true, through: generator.random() };
         let content = content(budget.record(), shape, number);
         with_maps(shape, budget, Some(&content), |front, _| {
             let grid = *front.grid();

@@ -139,12 +139,3 @@ pub fn uncovered(mask: u16, [near, far]: [[i32; 2]; 2], border: Border) -> u16 {
     let from_beyond = shown & !moved(ALL, relative);
     within | if border == Border::Still && far == [0, 0] { from_beyond } else { 0 }
 }
-
-/// The same of everything that moves like the far surface, if galpixels of the far one do not survive a frame in which the near one is in
-/// front of them; `ahead` are the frames before.
-pub fn laid_open(mask: u16, now: [[i32; 2]; 2], ahead: &[[[i32; 2]; 2]]) -> u16 {
-    let run_over = ahead.iter().fold(0, |over, [near, far]| over | moved(mask, [near[0] - far[0], near[1] - far[1]]));
-    let [near, far] = now;
-    let open = moved(!mask, [near[0] - far[0], near[1] - far[1]]) & !mask & run_over;
-    open & moved(ALL, far.map(|cells| -cells))
-}

@@ -62,7 +62,7 @@ fn check(component: Component, frames: u32) -> [usize; 2] {
     let (mut reached, mut pairs) = (0, 0);
     for (one, paths_of_one) in motions.iter().zip(&paths) {
         for (other, paths_of_other) in motions.iter().zip(&paths) {
-            let most = bound.cells(*one, *other) as i32;
+            let most = bound.cells(&bound.between(*one, *other)) as i32;
             let farthest = paths_of_one
                 .iter()
                 .flatten()
@@ -105,7 +105,8 @@ fn sums_are_those_of_single_steps() {
                     let one = Motion { offset: 0, velocity, acceleration };
                     let other = Motion { offset: 0, velocity: other, acceleration: 7 };
                     for slack in [0, bound.slack] {
-                        let (sum, steps) = (bound.most(one, other, slack), bound.most_in_steps(one, other, slack));
+                        let (sum, steps) =
+                            (bound.most(&bound.between(one, other), slack), bound.most_in_steps(one, other, slack));
                         assert_eq!(sum, steps, "{one:?} {other:?} {frames} {slack}");
                     }
                 }
@@ -133,13 +134,13 @@ fn what_differs_by_less_than_the_limits_stays_together() {
             let [velocity, acceleration] = bound.together();
             // As far as both limits in the worst way.
             let one = Motion { offset: 0, velocity, acceleration: acceleration << scale.acceleration_up };
-            assert!(!bound.parts(one, Motion::default()), "{frames} {one:?}");
+            assert!(!bound.parts(&bound.between(one, Motion::default())), "{frames} {one:?}");
             let back = Motion { velocity: -one.velocity, acceleration: -one.acceleration, ..one };
-            assert!(!bound.parts(Motion::default(), back));
+            assert!(!bound.parts(&bound.between(Motion::default(), back)));
             // And not far within them: eight times as much gets ahead.
             if velocity > 0 {
                 let faster = Motion { velocity: 8 * velocity, ..Motion::default() };
-                assert!(bound.parts(faster, Motion::default()));
+                assert!(bound.parts(&bound.between(faster, Motion::default())));
             }
         }
     }

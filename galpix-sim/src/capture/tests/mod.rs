@@ -8,6 +8,7 @@ mod depth;
 mod encode;
 mod flow;
 mod folder;
+mod hidden;
 mod hostile;
 mod manifest;
 mod maps;

@@ -1,0 +1,124 @@
+//! `galpix ddoc` as a user or a script meets it.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn galpix(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
+    command.current_dir(folder).arg("ddoc").args(arguments).output().expect("the program starts")
+}
+
+fn text(bytes: &[u8]) -> &str {
+    std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+/// A cube with colours at its corners, as some programs write them.
+fn cube() -> String {
+    let mut obj = String::from("o cube\n");
+    for corner in 0..8 {
+        let [x, y, z] = [corner & 1, corner >> 1 & 1, corner >> 2];
+        obj += &format!("v {x} {y} {z} {x}.5 {y}.25 0.5\n");
+    }
+    for face in ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"] {
+        obj += &format!("f {face}\n");
+    }
+    obj
+}
+
+#[test]
+fn page_values_and_pictures_say_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("cube.obj"), cube()).unwrap();
+    let output = galpix(folder.path(), &["cube.obj", "--size", "128", "--out", "here/deep"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let lines: Vec<&str> = text(&output.stdout).lines().collect();
+    assert_eq!(lines.last(), Some(&"here/deep/ddoc.html"));
+    let out = folder.path().join("here/deep");
+    let document: Value = serde_json::from_str(&std::fs::read_to_string(out.join("ddoc.json")).unwrap()).unwrap();
+    let source = &document["sources"][0];
+    assert_eq!((source["source"].as_str(), source["radius"].as_u64()), (Some("cube"), Some(4)));
+    let count = |key: &str| source[key].as_u64().unwrap_or_else(|| panic!("{key}"));
+    assert!(count("missing_plain") > count("missing_ddoc") && count("strict_plain") >= count("missing_plain"));
+    assert!(source["seconds"]["total"].as_f64().unwrap() > 0.0);
+    let ratio = count("missing_ddoc") as f64 / count("missing_plain") as f64;
+    assert!((source["ratio"].as_f64().unwrap() - ratio).abs() < 1e-12);
+    assert!(lines[1].starts_with("cube ") && lines[1].contains(&format!("{:.1} %", 100.0 * ratio)), "{}", lines[1]);
+
+    let page = std::fs::read_to_string(out.join("ddoc.html")).unwrap();
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
+    assert_eq!(page.matches("<img ").count(), 9);
+    let picture = |name: &str| image::open(out.join(format!("cube-{name}.png"))).unwrap().to_rgb8();
+    assert_eq!((picture("plain").dimensions(), picture("ddoc").dimensions()), ((128, 128), (128, 128)));
+    assert_ne!(picture("plain"), picture("ddoc"));
+    let white = |name: &str| picture(name).pixels().filter(|pixel| pixel.0 == [255; 3]).count();
+    assert!(white("frame-plain") > white("frame-ddoc"), "what is missing is white");
+}
+
+#[test]
+fn json_is_one_document_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = galpix(folder.path(), &["knot", "--size", "96", "--radius", "5", "--asymmetry", "1.5", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let source = &document["sources"][0];
+    assert_eq!((source["size"].as_u64(), source["radius"].as_u64()), (Some(96), Some(5)));
+    assert_eq!((source["asymmetry"].as_f64(), source["views"].as_u64()), (Some(1.5), Some(26)));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn what_cannot_be_used_is_refused_in_one_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let hostile: [(&str, &[u8], &str); 11] = [
+        ("empty.obj", b"", "no triangle with an area"),
+        ("points.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n", "no triangle with an area"),
+        ("flat.obj", b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "no triangle with an area"),
+        ("spot.obj", b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "no triangle with an area"),
+        ("nan.obj", b"v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "not at a finite place"),
+        ("infinite.obj", b"v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n", "not at a finite place"),
+        ("beyond.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "no OBJ file that can be read"),
+        ("before.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf -1 -2 -9\n", "no OBJ file that can be read"),
+        ("words.obj", b"v a b c\n", "no OBJ file that can be read"),
+        ("binary.obj", b"v \xff\xfe\x00\x01\n", "no OBJ file that can be read"),
+        ("huge.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 99999999999999999999 2 3\n", "no OBJ file that can be read"),
+    ];
+    for (name, bytes, _) in hostile {
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+    }
+    std::fs::create_dir(folder.path().join("folder.obj")).unwrap();
+    // More triangles than are possible, from few bytes: a fan around one corner.
+    let corners = (1 << 21) + 4;
+    let many = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf{}\n", " 1 2 3".repeat(corners / 3 + 1));
+    std::fs::write(folder.path().join("many.obj"), many).unwrap();
+    let mut cases: Vec<(&str, &str)> = hostile.iter().map(|&(name, _, what)| (name, what)).collect();
+    cases.extend([
+        ("absent.obj", "cannot be opened"),
+        ("folder.obj", "it is no file"),
+        ("many.obj", "triangles, and 2097152 are possible"),
+        ("nowhere", "is no world"),
+        ("a\u{1b}[31m.obj", "cannot be opened"),
+    ]);
+    for (name, what) in cases {
+        let output = galpix(folder.path(), &[name, "--size", "64"]);
+        let message = text(&output.stderr).trim_end();
+        assert_eq!(output.status.code(), Some(2), "{name}: {message}");
+        assert!(message.contains(what) && message.lines().count() == 1, "{name}: {message}");
+        assert!(message.starts_with("galpix: ") && !message.contains('\u{1b}'), "{name}: {message}");
+        assert!(output.stdout.is_empty(), "{name}");
+    }
+    for (arguments, what) in [
+        (["knot", "--size", "63"], "64 to 2048"),
+        (["knot", "--size", "2049"], "64 to 2048"),
+        (["knot", "--radius", "0"], "--radius"),
+        (["knot", "--radius", "256"], "--radius"),
+        (["knot", "--asymmetry", "0.9"], "1 to 15"),
+        (["knot", "--asymmetry", "nan"], "1 to 15"),
+    ] {
+        let output = galpix(folder.path(), &arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(what), "{arguments:?}: {}", text(&output.stderr));
+    }
+}
