@@ -80,6 +80,7 @@ fn what_cannot_be_compared_is_said_in_a_sentence() {
         (&["graft", "a\u{1b}[2Jb"], &["there is no scene"]),
         (&["graft", "drift"], &["drift", "no objects"]),
         (&["graft", "--objects", "1", "--global", "40"], &["every 1 frames", "--global"]),
+        (&["graft", "--frames", "20"], &["every 22 frames", "a run has 20", "--frames"]),
         (&["graft", "--objects", "0"], &["--objects"]),
         (&["graft", "--global", "65"], &["--global"]),
         (&["graft", "--frames", "129"], &["--frames"]),

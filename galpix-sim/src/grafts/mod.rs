@@ -66,6 +66,17 @@ pub enum GraftsError {
         /// Cells a frame.
         global: u32,
     },
+    /// Too little is left of the rate for the background.
+    #[error(
+        "the objects leave so little that the background comes every {every} frames, and a run has {frames}: raise --objects or \
+         --frames, or lower --global"
+    )]
+    Rarely {
+        /// Frames from one rendering of the background to the next.
+        every: u64,
+        /// The plan's.
+        frames: u32,
+    },
     /// The engine cannot be set up.
     #[error("{0}")]
     Engine(#[from] EngineError),
@@ -137,6 +148,9 @@ fn ways(world: &World, plan: &Plan) -> Result<Vec<Way>, GraftsError> {
         Some(left @ 1..) => (u64::from(background) * period).div_ceil(left),
         _ => u64::MAX,
     };
+    if left.is_some_and(|left| left > 0) && background_every > u64::from(plan.frames) {
+        return Err(GraftsError::Rarely { every: background_every, frames: plan.frames });
+    }
     if background_every > u64::from(plan.frames) {
         let (objects, global) = (objects / objects_every, view / global_every);
         return Err(GraftsError::Rate { objects_every, objects, global_every, global });
