@@ -107,7 +107,7 @@ mod panel {
         }
         #[inline(always)]
         fn word(pixel: Self::Pixel) -> u32 {
-            pixel.into_storage().into()
+            pixel.into_storage()
         }
     }
 

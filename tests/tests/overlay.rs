@@ -51,7 +51,7 @@ fn with_both<L: Layout, P: Profile>(
 }
 
 fn is_pinned(x: u32, y: u32) -> bool {
-    (x + 2 * y) % 3 == 0
+    (x + 2 * y).is_multiple_of(3)
 }
 
 /// Black at the corner: pinned black is not nothing.
@@ -220,7 +220,7 @@ fn text_and_lines_are_pinned() {
     let mut pinned = 0;
     for (x, y) in (0..12).flat_map(|y| (0..20).map(move |x| (x, y))) {
         let drawn = reference.get_pixel(Point::new(x, y)) == Some(BinaryColor::On);
-        let wanted = drawn.then_some(0b11111_111111_00000);
+        let wanted = drawn.then_some(0xffe0);
         assert_eq!(overlay.pinned(x as u32, y as u32), wanted, "{x}, {y}");
         pinned += u32::from(drawn);
     }

@@ -73,10 +73,11 @@ pub fn triangles(surface: &dyn Surface, lattice: &Lattice, t: f64, mut draw: imp
     };
     for row in 0..rows {
         for column in 0..columns {
-            if column + 1 < columns && row + 1 < rows {
-                if let Some([a, b, c, d]) = quads(&behind, column, row) {
-                    quad([&a, &b, &c, &d]);
-                }
+            if column + 1 < columns
+                && row + 1 < rows
+                && let Some([a, b, c, d]) = quads(&behind, column, row)
+            {
+                quad([&a, &b, &c, &d]);
             }
             // An edge of the lattice with the surface on one side only is a part of the rim.
             let at = row * columns + column;
@@ -84,10 +85,10 @@ pub fn triangles(surface: &dyn Surface, lattice: &Lattice, t: f64, mut draw: imp
             let left = whole(column.checked_sub(1), Some(row));
             let own = whole(Some(column), Some(row));
             for (other, is_rim) in [(at + 1, above != own), (at + columns, left != own)] {
-                if is_rim {
-                    if let (Some(a), Some(b), Some(c), Some(d)) = (front[at], front[other], behind[at], behind[other]) {
-                        quad([&a, &b, &c, &d]);
-                    }
+                if is_rim
+                    && let (Some(a), Some(b), Some(c), Some(d)) = (front[at], front[other], behind[at], behind[other])
+                {
+                    quad([&a, &b, &c, &d]);
                 }
             }
         }

@@ -68,10 +68,12 @@ pub fn warp(reference: &Reference, view: &View, joint: &Joint) -> Raster<3> {
         frame.draw([&b, &d, &c]);
     }
     let mut triangle = |of: [usize; 3]| {
-        if let [Some(a), Some(b), Some(c)] = of.map(|index| &pins[index]) {
-            if joined(of[0], of[1]) && joined(of[1], of[2]) && joined(of[2], of[0]) {
-                frame.draw([a, b, c]);
-            }
+        if let [Some(a), Some(b), Some(c)] = of.map(|index| &pins[index])
+            && joined(of[0], of[1])
+            && joined(of[1], of[2])
+            && joined(of[2], of[0])
+        {
+            frame.draw([a, b, c]);
         }
     };
     for y in 0..height - 1 {

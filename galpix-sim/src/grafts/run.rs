@@ -138,7 +138,7 @@ fn layered<const HIDDEN: usize>(
     let rung = if carry == Carry::Colours { Rung::Extend } else { Rung::None };
     let settings = Settings { rung, ..Settings::for_depth(depth_bits) };
     match way.deliver {
-        Deliver::Objects { limits, updates, .. } if updates == 1 => {
+        Deliver::Objects { limits, updates: 1, .. } => {
             let mut memory = vec![0; Queue::<Shaded, _, 1>::words(budget, limits.cells)];
             let mut queue = Queue::<Shaded, _, 1>::new(budget, limits, &mut memory)?;
             frames_of(world, way, frames, carry, sums, &mut maps, &settings, Some(&mut queue));
@@ -205,7 +205,7 @@ fn frames_of<const HIDDEN: usize, const UPDATES: usize>(
                     // Spread over the period, and the first renderings not before the frame that they are exact at.
                     let every = if object == 0 { background_every } else { objects_every };
                     let phase = every * object as u32 / objects as u32;
-                    if frame >= late && (frame - late + phase) % every == 0 && frame != late {
+                    if frame >= late && (frame - late + phase).is_multiple_of(every) && frame != late {
                         sums.submit(world, maps, queue, object, frame, late, carry);
                     }
                 }

@@ -22,10 +22,13 @@ const ROUNDS: u32 = 5;
 /// Cells from which on one round counts.
 const LARGE: usize = 400_000;
 
-/// The times of a frame of a source, one a way, and the microseconds that its disocclusion map took, where there is one.
+/// The time of a frame of a way, and the microseconds that its disocclusion map took, where there is one.
+pub type WayTime = (Option<Time>, Option<f64>);
+
+/// The times of a source, one a way.
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
-pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<(Option<Time>, Option<f64>)>, ExperimentError> {
+pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
     let update = source.update();
     if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
         timed::<Shaded>(source, &update, plan, ways)
@@ -71,7 +74,7 @@ fn timed<L: Layout + 'static>(
     update: &Update,
     plan: &Plan,
     ways: &[Way],
-) -> Result<Vec<(Option<Time>, Option<f64>)>, ExperimentError> {
+) -> Result<Vec<WayTime>, ExperimentError> {
     let frames = plan.request.frames.unwrap_or(source.frames());
     let bits = Bits::derive(experiment::demand(update, frames, &plan.request))?;
     let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;

@@ -2,7 +2,7 @@
 
 use fixed::types::I32F32;
 use galpix_core::disocclusion::{Border, Reach, covered, map};
-use galpix_core::galpixel::{Budget, Chosen, Galpixel, Profile};
+use galpix_core::galpixel::{Chosen, Galpixel, Profile};
 use galpix_core::layout::Velocity565;
 use galpix_core::propagate::{snap, step_position};
 use galpix_core::rounding::Rounding;
