@@ -60,7 +60,7 @@ fn raster_and_doubling_agree_on_random_marks() {
                 let word = if generator.random_range(0..60) < dense { extents.word() } else { 0 };
                 // Shut on some ways.
                 if generator.random_range(0..8) == 0 {
-                    word | generator.random_range(0..16) * 0x0810_2040 & !EXTENTS
+                    word | (generator.random_range(0..16) * 0x0810_2040) & !EXTENTS
                 } else {
                     word
                 }
