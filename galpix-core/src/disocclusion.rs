@@ -5,9 +5,9 @@
 //! reaches from it; hidden samples of all other cells need not be carried. (Supplement to the paper on depth layers, Algorithms
 //! 1 and 2; `docs/disocclusion.md` says what was read how, and proves what is claimed here.)
 //!
-//! 1. [`mark`] looks at each pair of neighbours: where one gets away from the other, the nearer one leaves, and uncovers what is
+//! 1. [`mark()`] looks at each pair of neighbours: where one gets away from the other, the nearer one leaves, and uncovers what is
 //!    behind itself and behind the cells that it comes by (Algorithm 1)
-//! 2. [`spread`] hands this on from cell to cell (Algorithm 2), [`spread_by_doubling`] the same in steps of 1, 2, 4, ... cells for machines that
+//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2), [`spread_by_doubling`] the same in steps of 1, 2, 4, ... cells for machines that
 //!    work on all cells at once
 //!
 //! [`map`] does 1 and 2 in one pass down and one pass up; [`cover`] needs a single line of memory for the same, and keeps one bit a cell.
@@ -119,7 +119,7 @@ fn mark_row<L: Layout, B: Budget<L>>(marker: &mut Marker<'_, '_, L, B>, y: u32, 
     marker.rows::<true>(y, here, next);
 }
 
-/// [`mark`] and [`spread`] together, row by row.
+/// [`mark()`] and [`spread()`] together, row by row.
 pub fn map<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, extents: &mut [u32], reach: &Reach) -> Tally {
     let grid = *front.grid();
     let mut marker = Marker::new(front, reach);

@@ -147,7 +147,7 @@ fn opened(block: &mut [u32]) -> u32 {
     covered
 }
 
-/// Spreads a map that [`super::mark`] has marked; returns how many cells are covered.
+/// Spreads a map that [`super::mark()`] has marked; returns how many cells are covered.
 ///
 /// `extents` must have a word for each cell of the grid; rows that are not all there are left out. What is spread already stays
 /// as it is where extents only come from cells that are uncovered; mark anew before each spreading.
