@@ -88,9 +88,14 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
         let Controller { front, back, scratch, frame } = &mut self.base;
         let mut tally = LayersTally::NOTHING;
         tally.base = move_on(front, back, scratch, settings, *frame);
-        for (layer, tally) in self.hidden.iter_mut().zip(&mut tally.hidden) {
-            *tally = layer.move_on(settings, *frame);
+        // Not zipped: that is walked by index, and an index is multiplied by the size of a layer.
+        let mut tallies = tally.hidden.iter_mut();
+        for layer in &mut self.hidden {
+            let moved = layer.move_on(settings, *frame);
             layer.seat_back(back, settings.work);
+            if let Some(tally) = tallies.next() {
+                *tally = moved;
+            }
         }
         let around = Shown { front, hidden: &self.hidden };
         fill_holes(&around, back, scratch, settings, &mut tally.base);
