@@ -195,7 +195,7 @@ def compare_record(case, record, where, differences):
                                 f"got {getattr(place, part)}")
 
 
-# --- The six kinds --------------------------------------------------------------------------------------------------
+# --- The kinds -----------------------------------------------------------------------------------------------------
 # Each returns (Checked, arrays that must stand in the .hex files by name).
 
 def low_words(numbers):
@@ -436,8 +436,31 @@ def check_objects(case, where, differences):
     return Checked(0, numbers), arrays
 
 
+def check_disocclusion(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    reach = model.reach_of(get_int(case, "frames", where), get_int(case, "separation", where),
+                           get_choice(case, "border", model.BORDERS, where), get(case, "tears", bool, where),
+                           get(case, "through", bool, where))
+    arrays = {"front": get_words(case, "front", where, record.words * cells)}
+    arrays.update({name: get_words(case, name, where, cells) for name in ("marked", "spread")})
+    arrays["mask"] = get_words(case, "mask", where, -(-cells // 32))
+    marked, spread, mask, counts = model.disocclusion(engine, reach, model.unpack_map(arrays["front"], record, cells))
+    for name, got in (("marked", marked), ("spread", spread), ("mask", mask)):
+        compare_numbers(name, arrays[name], got, where, differences)
+    told = get(case, "counts", dict, where)
+    if set(told) != set(model.DISOCCLUSION_COUNTS):
+        differences.add(f"{where}: the counts are named {sorted(told)}")
+    for name in model.DISOCCLUSION_COUNTS:
+        if get_int(told, name, where) != counts[name]:
+            differences.add(f"{where}, count {name}: expected {told[name]}, got {counts[name]}")
+    return Checked(0, 2 * cells + len(mask) + len(counts)), arrays
+
+
 CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
-          "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects}
+          "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects,
+          "disocclusion": check_disocclusion}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
@@ -447,6 +470,7 @@ COMPARED = {
     "inpaint": "records, edges, maps before and after inpainting",
     "layers": "records, displacements, own and shown maps, layers shown, counts",
     "objects": "records, maps, counts",
+    "disocclusion": "records, extents as marked and as spread, masks, counts",
 }
 
 

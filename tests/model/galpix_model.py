@@ -1457,6 +1457,248 @@ def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
     return moved, (n + 1) % (1 << 32), numbers, all_counts
 
 
+# --- 17. Disocclusion map --------------------------------------------------------------------------------------------
+
+Reach = namedtuple("Reach", "frames separation border tears through")
+Body = namedtuple("Body", "key motion")             # motion: of x and of y (offset, v, A)
+
+BORDERS = ("still", "continues")
+DISOCCLUSION_COUNTS = ("edges", "endless", "covered")
+
+LEFT, RIGHT, ABOVE, BELOW = range(4)
+SIDES = ("left", "right", "above", "below")
+OPPOSITE = (RIGHT, LEFT, BELOW, ABOVE)
+ENDLESS = 127
+BEYOND = Body((1 << 31) - 1, ((0, 0, 0),) * 2)
+
+
+def reach_of(frames, separation, border, tears, through):
+    """Section 17: settings, with what is too large brought into range."""
+    if frames > 255:
+        reached["17 frames above 255"] += 1
+        frames = 255
+    if separation > 1 << 30:
+        reached["17 separation above 2^30"] += 1
+        separation = 1 << 30
+    reached[f"17 border {border}"] += 1
+    reached["17 tears count" if tears else "17 tears do not count"] += 1
+    reached["17 surfaces let through" if through else "17 surfaces not let through"] += 1
+    return Reach(frames, separation, border, tears, through)
+
+
+def default_reach(engine, frames):
+    """Section 17: what the settings are by default."""
+    bits = engine.widths["depth"]
+    reached["17 default with a depth" if bits else "17 default without a depth"] += 1
+    return Reach(frames, default_edge_threshold(bits) if bits else 0, "still", True, False)
+
+
+def body_of(engine, galpixel):
+    """Section 17, bodies."""
+    if galpixel["class"] == EMPTY:
+        reached["17 body of class 3"] += 1
+        return BEYOND
+    reached[f"17 body of class {galpixel['class']}"] += 1
+    key = (galpixel["class"] << engine.widths["depth"]) + galpixel["depth"]
+    return Body(key, tuple((galpixel[f"offset_{name}"], galpixel[f"velocity_{name}"],
+                            galpixel[f"acceleration_{name}"] << engine.shifts[number].acceleration_up)
+                           for number, name in enumerate(COMPONENTS[:2])))
+
+
+def steps_ahead(engine, number, v, big_a, frames):
+    """Section 17, ahead: `2v + A` of each of the steps."""
+    bits = engine.widths[f"velocity_{COMPONENTS[number]}"]
+    steps = []
+    for _ in range(frames):
+        steps.append(2 * v + big_a)
+        if engine.layout.acceleration:
+            w = clamp(v + big_a, lowest(bits), highest(bits))
+            if w != v + big_a:
+                reached["17 velocity clamped at the highest" if w < v + big_a else "17 velocity clamped at the lowest"] += 1
+            v = w
+    return steps
+
+
+def ahead(engine, reach, number, one, other):
+    """Section 17, ahead: (cells by which `one` gets ahead of `other` along a component, whether they part)."""
+    if reach.frames == 0:
+        reached["17 no frames"] += 1
+        return 0, False
+    (offset, v, big_a), (offset2, v2, big_a2) = one.motion[number], other.motion[number]
+    if one.motion[number] == other.motion[number]:
+        reached["17 equal motion"] += 1
+        return 0, False
+    shifts = engine.shifts[number]
+    if engine.layout.acceleration:
+        slack = (1 << shifts.down) - 1
+        reached["17 slack with acceleration" if slack else "17 slack 0 with acceleration"] += 1
+    else:
+        slack = max(0, (1 << shifts.down) - 2)
+        reached["17 slack without acceleration" if slack else "17 slack 0 without acceleration"] += 1
+    sums, total = [], 0
+    for s, s2 in zip(steps_ahead(engine, number, v, big_a, reach.frames),
+                     steps_ahead(engine, number, v2, big_a2, reach.frames)):
+        total += s - s2
+        sums.append(total)
+    with_slack = [total + n * slack for n, total in enumerate(sums, 1)]
+    largest = max(with_slack)
+    if largest > with_slack[0] and largest > with_slack[-1]:
+        reached["17 farthest ahead on the way"] += 1
+    elif len(sums) > 1:
+        reached["17 farthest ahead at last" if largest > with_slack[0] else "17 farthest ahead at first"] += 1
+    reached["17 ahead, up > 0" if shifts.up else "17 ahead, up 0"] += 1
+    part = 1 << engine.budget.components[number].velocity_frac + 1
+    if max(sums) == part:
+        reached["17 part just so"] += 1
+    elif 0 < max(sums) < part:
+        reached["17 do not part"] += 1
+    units = offset - offset2 + ((largest >> shifts.down) << shifts.up)
+    frac = engine.position_frac[number]
+    cells = -(-units >> frac)
+    if cells < 0:
+        reached["17 ahead by less than nothing"] += 1
+    elif cells:
+        reached["17 ahead by whole cells" if units == cells << frac else "17 ahead rounded up"] += 1
+    return max(0, cells), max(sums) >= part
+
+
+def pairs_of(grid, border):
+    """Section 17, pairs: (component along, first cell, second cell); None is what is beyond the border."""
+    pairs = []
+    for cell in range(columns(grid) * rows(grid)):
+        left, right, above, below = neighbours(grid, cell)
+        for along, before, after in ((0, left, right), (1, above, below)):
+            if after is not None:
+                pairs.append((along, cell, after))
+            elif border == "still":
+                pairs.append((along, cell, None))
+            if before is None and border == "still":
+                pairs.append((along, None, cell))
+    return pairs
+
+
+def enlarge(extents, sides):
+    """Section 17: the largest, each for itself."""
+    for side, extent in sides:
+        if extents[side] and extent > 1:
+            reached["17 extent of several pairs"] += 1
+        extents[side] = max(extents[side], extent)
+
+
+def mark_disocclusion(engine, reach, front):
+    """Section 17, pairs and mark: (extents of each cell, sides to which each is shut, counts)."""
+    grid = engine.grid
+    bodies = [body_of(engine, galpixel) for galpixel in front]
+    extents = [[0] * 4 for _ in front]
+    shut = [[False] * 4 for _ in front]
+    counts = dict.fromkeys(DISOCCLUSION_COUNTS, 0)
+    for along, first, second in pairs_of(grid, reach.border):
+        across = 1 - along
+        one, two = (BEYOND if cell is None else bodies[cell] for cell in (first, second))
+        farther = two.key - one.key
+        same = abs(farther) < reach.separation
+        if abs(farther) == reach.separation:
+            reached["17 not of one surface, just so"] += 1
+        gap, parts = ahead(engine, reach, along, two, one)
+        closer, _ = ahead(engine, reach, along, one, two)
+        onwards, _ = ahead(engine, reach, across, two, one)
+        backwards, _ = ahead(engine, reach, across, one, two)
+        before, after = (LEFT, RIGHT) if along == 0 else (ABOVE, BELOW)
+        up, down = (ABOVE, BELOW) if along == 0 else (LEFT, RIGHT)
+        if gap > 0 and (not same or reach.tears and parts):
+            given = min(gap, ENDLESS), min(onwards + 1, ENDLESS), min(backwards + 1, ENDLESS)
+            counts["edges"] += 1
+            if ENDLESS in given:
+                reached[f"17 endless {('along', 'onwards', 'backwards')[given.index(ENDLESS)]}"] += 1
+                counts["endless"] += 1
+            if None in (first, second):
+                reached[f"17 opens at the border, {SIDES[before if first is None else after]}"] += 1
+            reached[f"17 opens along {COMPONENTS[along]}, {'tears' if same else 'farther' if farther > 0 else 'nearer' if farther else 'equal'}"] += 1
+            if second is not None and (same or farther <= 0):
+                enlarge(extents[second], ((after, given[0]), (before, 1), (down, given[1]), (up, given[2])))
+            if first is not None and (same or farther >= 0):
+                enlarge(extents[first], ((before, given[0]), (after, 1), (down, given[2]), (up, given[1])))
+        elif gap > 0:
+            reached["17 of one surface, parts" if parts else "17 of one surface, does not part"] += 1
+        if reach.through or same or farther == 0:
+            if not reach.through and not same:
+                reached["17 equal keys shut nothing"] += 1
+            continue
+        if max(gap, closer, onwards, backwards) < 2:
+            reached["17 not far enough to be shut"] += 1
+            continue
+        far = [name for name, cells in zip(("gap", "closer", "onwards", "backwards"), (gap, closer, onwards, backwards))
+               if cells >= 2]
+        if len(far) == 1:
+            reached[f"17 shut by {far[0]} alone"] += 1
+        cell, side = (second, after) if farther > 0 else (first, before)
+        if cell is not None:
+            reached[f"17 shut to {SIDES[side]}"] += 1
+            shut[cell][side] = True
+    for cell, galpixel in enumerate(front):
+        if galpixel["class"] == EMPTY:
+            reached["17 class 3 has extents" if any(extents[cell]) else "17 class 3 has none of its own"] += 1
+            extents[cell] = [max(1, extent) for extent in extents[cell]]
+    return extents, shut, counts
+
+
+def scan(grid, side):
+    """Section 17, spread: (cell before, cell) in the order of a scan to a side."""
+    cells = range(columns(grid) * rows(grid))
+    for cell in cells if side in (RIGHT, BELOW) else reversed(cells):
+        before = neighbours(grid, cell)[OPPOSITE[side]]
+        if before is not None:
+            yield before, cell
+
+
+def spread_disocclusion(grid, extents, shut):
+    """Section 17, spread: extents of each cell; all of them are open."""
+    spread = [list(of) for of in extents]
+    for side in (RIGHT, LEFT, BELOW, ABOVE):
+        opposite = OPPOSITE[side]
+        for before, cell in scan(grid, side):
+            source, own = spread[before], spread[cell]
+            if source[side] < 2:
+                if source[side]:
+                    reached[f"17 spread {SIDES[side]} ends"] += 1
+                continue
+            if shut[cell][side]:
+                reached[f"17 spread {SIDES[side]}: shut"] += 1
+                continue
+            if any(shut[cell]):
+                reached["17 spread: shut to another side"] += 1
+            reached[f"17 spread {SIDES[side]} goes on"] += 1
+            if source[side] == ENDLESS:
+                reached["17 spread: 127 stays"] += 1
+            for of in range(4):
+                carried = source[of]
+                if of == side and carried < ENDLESS:
+                    carried -= 1
+                elif of == opposite:
+                    carried = 1
+                if own[of] > carried:
+                    reached["17 spread: its own is larger"] += 1
+                own[of] = max(own[of], carried)
+    return spread
+
+
+def extent_words(extents, shut):
+    """Section 17, words."""
+    return [sum((extent | closed << 7) << 8 * side for side, (extent, closed) in enumerate(zip(of, closed_of)))
+            for of, closed_of in zip(extents, shut)]
+
+
+def disocclusion(engine, reach, front):
+    """Section 17: (marked words, spread words, words of the mask, counts)."""
+    extents, shut, counts = mark_disocclusion(engine, reach, front)
+    spread = spread_disocclusion(engine.grid, extents, shut)
+    words = extent_words(spread, [[False] * 4] * len(spread))
+    covered = [word != 0 for word in words]
+    counts["covered"] = sum(covered)
+    reached["17 all covered" if all(covered) else "17 none covered" if not any(covered) else "17 some covered"] += 1
+    return extent_words(extents, shut), words, edge_words(covered), counts
+
+
 # --- 18. Grafting an object ------------------------------------------------------------------------------------------
 
 Rendering = namedtuple("Rendering", "tag stamp place size galpixels")
@@ -1622,6 +1864,26 @@ def rule_names():
               "14 push: no sample, nothing", "14 push: no sample, stays", "14 push: mean, of itself most",
               "14 push: mean, halves", "14 push: mean, of the sample most", "14 hole takes colour and motion",
               "14 hole takes colour alone", "14 hole without a sample", "14 map of one cell"]
+    names += ["17 frames above 255", "17 separation above 2^30", "17 tears count", "17 tears do not count",
+              "17 surfaces let through", "17 surfaces not let through", "17 body of class 3"]
+    names += [f"17 border {border}" for border in BORDERS]
+    names += [f"17 body of class {klass}" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
+    names += ["17 no frames", "17 equal motion", "17 velocity clamped at the lowest",
+              "17 velocity clamped at the highest", "17 farthest ahead on the way", "17 farthest ahead at last",
+              "17 farthest ahead at first", "17 ahead, up > 0", "17 ahead, up 0", "17 part just so", "17 do not part",
+              "17 ahead by less than nothing", "17 ahead by whole cells", "17 ahead rounded up"]
+    names += [f"17 slack{zero} {lane} acceleration" for zero in ("", " 0") for lane in ("with", "without")]
+    names += ["17 not of one surface, just so", "17 of one surface, parts", "17 of one surface, does not part"]
+    names += [f"17 opens along {along}, {how}" for along in "xy" for how in ("tears", "farther", "nearer", "equal")]
+    names += [f"17 opens at the border, {side}" for side in SIDES]
+    names += [f"17 endless {how}" for how in ("along", "onwards", "backwards")]
+    names += ["17 equal keys shut nothing", "17 not far enough to be shut"]
+    names += [f"17 shut by {how} alone" for how in ("gap", "closer", "onwards", "backwards")]
+    names += [f"17 shut to {side}" for side in SIDES]
+    names += ["17 extent of several pairs", "17 class 3 has extents", "17 class 3 has none of its own"]
+    names += [f"17 spread {side}{what}" for side in SIDES for what in (" goes on", " ends", ": shut")]
+    names += ["17 spread: shut to another side", "17 spread: 127 stays", "17 spread: its own is larger"]
+    names += ["17 all covered", "17 some covered", "17 none covered"]
     names += ["18 empty stays, whatever its tag", "18 another tag stays"]
     names += [f"18 class {klass} of the tag is removed" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
     names += ["18 a missed step", "18 nothing in a cell of the rectangle", "18 takes the rendering's tag",
@@ -1641,4 +1903,5 @@ RULES_BEYOND_VECTORS = [
     "12 loaded as it is", "12 clamped at the lowest", "12 clamped at the highest", "12 clamped and counted",
     "12 absent field forgets",
     "14 depth of class 3 is 0",     # after a frame it is 0 already
+    "17 default with a depth", "17 default without a depth",
 ]
