@@ -2,11 +2,12 @@
 //! logic. The files are described in `docs/vectors.md`.
 //!
 //! ```text
-//! choice, inpaint, layers, objects (which cases) ─▶ maps (what is in them) ─▶ run, layered (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
+//! choice, inpaint, layers, objects, disocclusion (which cases) ─▶ maps (what is in them) ─▶ run, layered (the core) ─▶ case (what is written down) ─▶ write (JSON, hex, hashes)
 //! ```
 
 mod case;
 mod choice;
+mod disocclusion;
 mod hash;
 mod inpaint;
 mod layered;

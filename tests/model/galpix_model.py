@@ -1637,7 +1637,7 @@ def mark_disocclusion(engine, reach, front):
             shut[cell][side] = True
     for cell, galpixel in enumerate(front):
         if galpixel["class"] == EMPTY:
-            reached["17 class 3 has extents" if any(extents[cell]) else "17 class 3 has none of its own"] += 1
+            reached["17 class 3 covers itself"] += 1
             extents[cell] = [max(1, extent) for extent in extents[cell]]
     return extents, shut, counts
 
@@ -1880,7 +1880,7 @@ def rule_names():
     names += ["17 equal keys shut nothing", "17 not far enough to be shut"]
     names += [f"17 shut by {how} alone" for how in ("gap", "closer", "onwards", "backwards")]
     names += [f"17 shut to {side}" for side in SIDES]
-    names += ["17 extent of several pairs", "17 class 3 has extents", "17 class 3 has none of its own"]
+    names += ["17 extent of several pairs", "17 class 3 covers itself"]
     names += [f"17 spread {side}{what}" for side in SIDES for what in (" goes on", " ends", ": shut")]
     names += ["17 spread: shut to another side", "17 spread: 127 stays", "17 spread: its own is larger"]
     names += ["17 all covered", "17 some covered", "17 none covered"]

@@ -7,6 +7,7 @@ use galpix_core::tally::Tally;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::disocclusion::Disocclusion;
 use super::layered::Layers;
 use super::objects::Objects;
 
@@ -26,7 +27,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame, inpaint, layers or objects.
+    /// step, resolve, edge, fill, frame, inpaint, layers, objects or disocclusion.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -75,6 +76,8 @@ pub enum Content {
     Layers(Layers),
     /// Objects that enter a map.
     Objects(Objects),
+    /// What a map may uncover.
+    Disocclusion(Disocclusion),
 }
 
 impl Content {
@@ -90,6 +93,7 @@ impl Content {
             Self::Inpaint(_) => "inpaint",
             Self::Layers(_) => "layers",
             Self::Objects(_) => "objects",
+            Self::Disocclusion(_) => "disocclusion",
         }
     }
 }

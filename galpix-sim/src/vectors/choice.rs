@@ -13,7 +13,7 @@ use galpix_core::rounding::Rounding;
 use super::case::{Case, Content, GridSize};
 use super::maps::{Picture, Random};
 use super::run::{self, Model, Plan, RunError};
-use super::{inpaint, layers, objects};
+use super::{disocclusion, inpaint, layers, objects};
 
 /// Frames of a frame case.
 const FRAMES: u32 = 5;
@@ -39,7 +39,7 @@ const SHAPES: [GridSize; 9] = [
     grid(70, 4, [0; 4]),
 ];
 
-const fn component(position_frac: u32, velocity: [u32; 2], acceleration: [u32; 2]) -> Component {
+pub const fn component(position_frac: u32, velocity: [u32; 2], acceleration: [u32; 2]) -> Component {
     Component {
         position_frac,
         velocity_int: velocity[0],
@@ -135,6 +135,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     cases.extend(inpaint::cases(seed, &models()?)?);
     cases.extend(layers::cases(seed, &models()?)?);
     cases.extend(objects::cases(seed)?);
+    cases.extend(disocclusion::cases(seed, &models()?)?);
     Ok(cases)
 }
 

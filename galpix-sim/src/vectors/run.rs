@@ -2,6 +2,7 @@
 
 use galpix_core::budget::{Bits, Component};
 use galpix_core::colour::Colour;
+use galpix_core::disocclusion::Reach;
 use galpix_core::edge;
 use galpix_core::error::{BudgetError, SetupError};
 use galpix_core::fill::{Rung, fill};
@@ -22,6 +23,7 @@ use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 
 use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Resolve, Setting, Step};
+use super::disocclusion::{Shown, uncovered};
 use super::hash;
 use super::layered::{Hidden, layered};
 use super::maps::{Picture, Random, size, words};
@@ -70,6 +72,9 @@ pub struct Paint {
 /// Frames of some layers.
 type RunLayers = fn(Bits, &Plan, &[Hidden], &mut Random) -> Result<Content, RunError>;
 
+/// The disocclusion map of a picture.
+type RunUncovered = fn(Bits, GridSize, Shown, &Reach, &mut Random) -> Result<Content, RunError>;
+
 /// A layout under a budget, and what can be run with it.
 #[derive(Clone, Copy)]
 pub struct Model {
@@ -83,6 +88,7 @@ pub struct Model {
     painted: fn(Bits, &Plan, &Paint, &mut Random) -> Result<Content, RunError>,
     /// With one to three layers beside the base.
     layered: [RunLayers; 3],
+    uncovered: RunUncovered,
 }
 
 impl Model {
@@ -97,6 +103,7 @@ impl Model {
             frames: frames::<L>,
             painted: painted::<L>,
             layered: [layered::<L, 1>, layered::<L, 2>, layered::<L, 3>],
+            uncovered: uncovered::<L>,
         })
     }
 
@@ -118,6 +125,17 @@ impl Model {
     /// Frames of a base and one to three layers beside it.
     pub fn layered(&self, plan: &Plan, hidden: &[Hidden], random: &mut Random) -> Result<Content, RunError> {
         self.layered[hidden.len() - 1](self.bits, plan, hidden, random)
+    }
+
+    /// What a map may uncover.
+    pub fn uncovered(
+        &self,
+        map_size: GridSize,
+        shown: Shown,
+        reach: &Reach,
+        random: &mut Random,
+    ) -> Result<Content, RunError> {
+        (self.uncovered)(self.bits, map_size, shown, reach, random)
     }
 }
 

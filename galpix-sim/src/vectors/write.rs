@@ -94,6 +94,12 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
         ]),
         Content::Layers(layers) => layers.arrays(),
         Content::Objects(objects) => objects.arrays(),
+        Content::Disocclusion(map) => named(vec![
+            ("front", map.front.clone()),
+            ("marked", map.marked.clone()),
+            ("spread", map.spread.clone()),
+            ("mask", map.mask.clone()),
+        ]),
         Content::Frame(frames) => {
             let first = ("front".to_owned(), frames.front.clone());
             let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));

@@ -5,6 +5,8 @@
 pub mod case;
 #[path = "../../../galpix-sim/src/vectors/choice.rs"]
 mod choice;
+#[path = "../../../galpix-sim/src/vectors/disocclusion.rs"]
+mod disocclusion;
 #[path = "../../../galpix-sim/src/vectors/hash.rs"]
 mod hash;
 #[path = "../../../galpix-sim/src/vectors/inpaint.rs"]
