@@ -106,7 +106,7 @@ const SHAPES: [GridSize; 9] = [
 ];
 
 /// The numbers of pictures and of shapes have no common divisor.
-const PICTURES: [Shown; 10] = [
+const PICTURES: [Shown; 11] = [
     Shown::Patches(5, 4),
     Shown::One(Picture::Random),
     Shown::One(Picture::Uncover),
@@ -117,6 +117,7 @@ const PICTURES: [Shown; 10] = [
     Shown::One(Picture::Slide),
     Shown::One(Picture::Checkerboard),
     Shown::One(Picture::Tear),
+    Shown::One(Picture::Creep),
 ];
 
 /// A depth as wide as it may be.
@@ -178,13 +179,17 @@ fn case(seed: u64, model: &Model, shown: Shown, map_size: GridSize) -> Result<Ca
     let quarter = 1 << model.depth_bits.saturating_sub(2);
     let frames = match shown {
         Shown::One(Picture::Random | Picture::Extreme) => one_of([0, 1, 1, 2, 3, 16]),
+        Shown::One(Picture::Creep) => one_of([1, 2, 3, 8, 16, 16]),
         _ => one_of([1, 3, 3, 16, 255, 1000]),
     };
     let reach = Reach {
         frames,
-        separation: one_of([default, default, 0, 1, quarter, u32::MAX]),
+        separation: match shown {
+            Shown::One(Picture::Creep) => 2,
+            _ => one_of([default, default, 0, 1, quarter, u32::MAX]),
+        },
         border: [Border::Still, Border::Continues][one_of([0, 0, 0, 0, 1, 1]) as usize],
-        tears: one_of([0, 0, 1, 1, 1, 1]) == 1,
+        tears: one_of([0, 0, 1, 1, 1, 1]) == 1 || matches!(shown, Shown::One(Picture::Creep)),
         through: one_of([0, 0, 0, 0, 1, 1]) == 1,
     };
     let content = model.uncovered(map_size, shown, &reach, &mut Random::new(seed, &name))?;

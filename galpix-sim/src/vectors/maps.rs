@@ -69,10 +69,12 @@ pub enum Picture {
     Tear,
     /// A block slides over a wide ground of two depths, so that long runs beside what it uncovers are known.
     Slide,
+    /// One surface whose cells creep apart by units of the last bits, so that in some frames they do not part and in more they do.
+    Creep,
 }
 
 impl Picture {
-    /// All of them but the last two, which are for inpainting alone.
+    /// All of them but the last three, which are for inpainting and for disocclusion.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -105,6 +107,7 @@ impl Picture {
             Self::Still => "still",
             Self::Tear => "tear",
             Self::Slide => "slide",
+            Self::Creep => "creep",
         }
     }
 }
@@ -126,11 +129,12 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             let value = match picture {
                 Picture::Random => random_field(name, field, record, random),
                 Picture::Extreme => extreme_field(name, field, random),
+                Picture::Creep => creeping_field(name, field, random),
                 _ => 0,
             };
             set(&mut words, field, value);
         }
-        if !matches!(picture, Picture::Random | Picture::Extreme) {
+        if !matches!(picture, Picture::Random | Picture::Extreme | Picture::Creep) {
             drawn(picture, record, [x, y], [columns, rows], random, &mut words);
         }
         for (word, value) in words.iter().take(record.words()).enumerate() {
@@ -167,6 +171,17 @@ fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) 
         "acceleration_x" | "acceleration_y" if random.below(4) > 0 => random.signed(bits.min(4)),
         // Few different depths: ties, and surfaces that go on.
         "depth" if random.below(2) > 0 => (random.below(3) << bits.saturating_sub(2)) as i32,
+        _ => random.signed(bits),
+    }
+}
+
+fn creeping_field(name: &str, field: Field, random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    match name {
+        "class" => 0,
+        "depth" => random.below(2) as i32,
+        "acceleration_x" | "acceleration_y" => random.signed(bits.min(1)),
+        _ if name.starts_with("velocity") => random.signed(bits.min(5)),
         _ => random.signed(bits),
     }
 }
