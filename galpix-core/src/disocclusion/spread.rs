@@ -8,9 +8,18 @@ use super::extents::{
     DOWNWARDS, EXTENTS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, extent, handed_on, shorter, taken,
 };
 use crate::grid::Grid;
+use crate::sweep::VECTORS;
 
 /// Cells that are passed by at once where nothing is uncovered.
 const BLOCK: usize = 16;
+
+/// Brings some words into the cache: all are asked for at once, before the first of them is waited for.
+#[inline(always)]
+pub(crate) fn bring(words: &[u32]) {
+    if VECTORS {
+        core::hint::black_box(words.iter().step_by(BLOCK).fold(0, |any, word| any | word));
+    }
+}
 
 /// Scans a row to the right and to the left. Only the bits `carried` of what is handed on are.
 #[inline(always)]
@@ -142,6 +151,7 @@ pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
     let mut covered = 0;
     for &start in grid.starts().iter().rev() {
         if let Some((row, below)) = rows(extents, start, width) {
+            bring(row);
             across::<UPWARDS>(below, row);
         }
         let row = extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default();
