@@ -404,3 +404,41 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 fn any(flags: &[u32; 8]) -> bool {
     flags.iter().fold(0, |any, flag| any | flag) != 0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::key_limit;
+
+    #[test]
+    fn keys_that_are_let_pass_are_less_than_the_separation_apart() {
+        for shift in [0, 1, 10, 24] {
+            let classes = 1i64 << (30 - shift);
+            for separation in [1, 2, 3, 4, 5, 100, 1 << 16, 1 << 30] {
+                let (limit, beyond) = key_limit(separation, shift).unwrap();
+                let separation = i64::from(separation);
+                let mut passed = 0;
+                for key in [0, 1, classes - 1, classes, 2 * classes, 3 * classes - 1] {
+                    for apart in
+                        [0, 1, separation / 2, separation - 1, separation, separation + 1, classes, 3 * classes - 1]
+                    {
+                        // All keys but those of empty cells.
+                        for other in
+                            [key - apart, key + apart].into_iter().filter(|other| (0..3 * classes).contains(other))
+                        {
+                            for (low, other_low) in [(0, 0), (0, u32::MAX), (u32::MAX, 0)] {
+                                let word = |key: i64, low: u32| (key as u32) << shift | low & ((1 << shift) - 1);
+                                let difference = word(other, other_low).wrapping_sub(word(key, low));
+                                let passes = difference.wrapping_add(limit) & beyond == 0;
+                                assert!(!passes || apart < separation, "{key} {other} {separation} {shift}");
+                                assert!(passes || apart > 0 || low != other_low);
+                                passed += u32::from(passes && apart > 0);
+                            }
+                        }
+                    }
+                }
+                assert!(passed > 0 || separation == 1 || separation > classes, "{separation} {shift}");
+            }
+        }
+        assert_eq!(key_limit(0, 0), None);
+    }
+}
