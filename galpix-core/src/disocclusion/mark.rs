@@ -77,7 +77,8 @@ fn key_limit(separation: i32, shift: u32) -> Option<(u32, u32)> {
         0 => None,
         1 => Some((0, u32::MAX)),
         _ => {
-            let power = (31 - (separation - 1).leading_zeros().min(31) + shift).min(30);
+            let below = (1..31).filter(|power| (separation - 1) >> power != 0).count() as u32;
+            let power = (below + shift).min(30);
             Some((1 << power, 0u32.wrapping_sub(2 << power)))
         }
     }
