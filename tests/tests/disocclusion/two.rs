@@ -152,7 +152,7 @@ fn report(what: &str, count: Count) {
         count.hiding,
         count.hiding as f64 / count.uncovered as f64,
     );
-    assert!(count.uncovered > 0 && count.hiding < 8 * count.uncovered);
+    assert!(count.uncovered > 0 && count.hiding < 9 * count.uncovered);
 }
 
 /// One of every `share` masks, another one for each scene.
