@@ -47,6 +47,20 @@ fn raster_and_doubling_agree_on_all_short_rows_and_columns() {
     }
 }
 
+/// One cell in a long row, whose extents end within some run of cells that are passed at once, at its end, or never.
+#[test]
+fn raster_and_doubling_agree_on_long_extents() {
+    for extent in [15, 16, 17, 18, 31, 32, 33, 34, 126, 127] {
+        for x in (0..150).step_by(7) {
+            let mut marks = vec![0; 150];
+            marks[x] = Extents { left: extent, right: extent, above: 3, below: 1 }.word();
+            let row = spread_both(150, 1, &marks);
+            let reached = |other: usize| extent == 127 || x.abs_diff(other) < usize::from(extent);
+            assert!((0..150).all(|other| (row[other] != 0) == reached(other)), "{extent} at {x}: {row:x?}");
+        }
+    }
+}
+
 #[test]
 fn raster_and_doubling_agree_on_random_marks() {
     let mut generator = random::generator(44);
