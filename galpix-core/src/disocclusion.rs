@@ -115,7 +115,7 @@ fn mark_row<L: Layout, B: Budget<L>>(marker: &mut Marker<'_, '_, L, B>, y: u32, 
     if y == 0 {
         marker.begin::<NO_PASS>(y, here);
     }
-    marker.begin::<NO_PASS>(y + 1, next);
+    marker.clear::<NO_PASS>(next);
     marker.rows::<true>(y, here, next);
 }
 

@@ -81,8 +81,8 @@ pub(crate) const fn larger(one: u32, other: u32) -> u32 {
     const TOPS: u32 = !EXTENTS;
     // No extent has the top bit of its byte: it stays set where the one is not smaller.
     let not_smaller = (one | TOPS).wrapping_sub(other & EXTENTS) & TOPS;
-    let mask = TOPS.wrapping_sub(not_smaller >> 7) ^ TOPS;
-    one & (mask | TOPS) | other & (EXTENTS & !mask)
+    let kept = not_smaller.wrapping_sub(not_smaller >> 7) | TOPS;
+    other ^ (one ^ other) & kept
 }
 
 /// What a cell says to the next one on the way `WAY` of a scan: its own extents, that one shorter, and nothing behind; 0 where it does

@@ -20,6 +20,9 @@ pub(crate) const NO_PASS: u32 = u32::MAX;
 /// Neighbours that are looked at once. A power of two.
 const RUN: usize = if VECTORS { 64 } else { 8 };
 
+/// Pairs that wait at most.
+const WAITING: usize = if VECTORS { 16 } else { 1 };
+
 /// The words of a run of cells that decide whether neighbours go pair by pair: of each field the word of its upper part, and of what spills.
 struct Lanes<'l> {
     class: &'l [u32; RUN],
@@ -47,18 +50,47 @@ impl<'l> Lanes<'l> {
         })
     }
 
-    /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it.
+    /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it, above [`key_shift`] bits that say nothing.
     #[inline(always)]
     fn key<L: Layout, B: Budget<L>>(&self, record: &Record, lane: usize) -> u32 {
         let ([depth, spill], lane) = (self.depth, lane & (RUN - 1));
-        match record.key_field() {
-            Some(key) if B::FIXED => key.extract().unsigned(depth[lane], depth[lane]),
-            _ => {
-                let class = record.class().extract().unsigned(self.class[lane], self.class[lane]);
-                class << record.depth().bits | record.depth().extract().unsigned(depth[lane], spill[lane])
-            }
+        if key_shift::<L, B>(record).is_some() {
+            return depth[lane];
+        }
+        let class = record.class().extract().unsigned(self.class[lane], self.class[lane]);
+        class << record.depth().bits | record.depth().extract().unsigned(depth[lane], spill[lane])
+    }
+}
+
+/// The lowest bit of the key in its word, if it is the top of one.
+#[inline(always)]
+fn key_shift<L: Layout, B: Budget<L>>(record: &Record) -> Option<u32> {
+    if B::FIXED { record.key_field().and_then(Field::at_top) } else { None }
+}
+
+/// By how much keys may differ in any case that are less than `separation` apart, and the bits that then are 0 once this is added; `None` if all pairs are
+/// looked at.
+fn key_limit(separation: i32, shift: u32) -> Option<(u32, u32)> {
+    // The bits below the key may take 1 away from the difference of two, or add it: a power of two that is less than the separation.
+    // Of keys that are not of empty cells none differ by 3/4 of all numbers, and 1/4 at most is let pass.
+    match separation {
+        0 => None,
+        1 => Some((0, u32::MAX)),
+        _ => {
+            let below = (1..31).filter(|power| (separation - 1) >> power != 0).count() as u32;
+            let power = (below + shift).min(30);
+            Some((1 << power, 0u32.wrapping_sub(2 << power)))
         }
     }
+}
+
+/// What a run of pairs has.
+#[derive(Clone, Copy)]
+struct Seen {
+    /// Flagged ones.
+    flags: bool,
+    /// Second ones that are empty, if they are in the row below.
+    empties: bool,
 }
 
 /// A field of a lane.
@@ -68,11 +100,57 @@ fn signed(field: Extract, [upper, lower]: [&[u32; RUN]; 2], lane: usize) -> i32 
     field.signed(upper[lane], lower[lane])
 }
 
+/// The columns of pairs that wait to be looked at. Much of what they are made of is not in the cache: it is asked for all of them at
+/// once, so that it is waited for once and not for each.
+struct Waiting {
+    columns: [u32; WAITING],
+    count: usize,
+}
+
+impl Waiting {
+    const NONE: Self = Self { columns: [0; WAITING], count: 0 };
+
+    /// A pair whose first cell is in column `x` waits. Whether no more can.
+    #[inline(always)]
+    fn wait(&mut self, x: u32) -> bool {
+        if let Some(column) = self.columns.get_mut(self.count) {
+            *column = x;
+            self.count += 1;
+        }
+        self.count >= WAITING
+    }
+
+    /// Brings into the cache what [`Body::read`] reads: of the first cells, which are in the row from cell `one` on, and of the second ones, in that from `other` on.
+    #[inline(always)]
+    fn bring<L: Layout, B: Budget<L>>(&self, front: &Galpixmap<'_, L, B>, one: u32, other: u32) {
+        if !VECTORS {
+            return;
+        }
+        let record = front.record();
+        let field = |component| {
+            [record.offset(component), record.velocity(component), record.acceleration(component)].map(Field::word_set)
+        };
+        let set = [field(0), field(1)].as_flattened().iter().fold(0, |set, field| set | field);
+        let mut words = 0;
+        for (plane, word) in front.planes().iter().zip(0..) {
+            for &x in self.columns.iter().take(if set >> word & 1 != 0 { self.count } else { 0 }) {
+                for cell in [one + x, other + x] {
+                    words |= plane.get(cell as usize).copied().unwrap_or(0);
+                }
+            }
+        }
+        core::hint::black_box(words);
+    }
+}
+
 /// What is done with each pair of a map.
 pub(crate) struct Marker<'m, 'p, L, B> {
     front: &'m Galpixmap<'p, L, B>,
     rule: Rule,
     border: Border,
+    key_limit: Option<(u32, u32)>,
+    /// Whether the row that is looked at may have empty cells.
+    empties: bool,
     /// By how much motions may differ, and the bits that then are 0.
     limits: [[(i32, u32); 2]; 2],
     /// The bits of a word that are marked.
@@ -85,7 +163,9 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let rule = Rule::new(front.record(), reach);
         let beyond = |limit| if limit == 0 { u32::MAX } else { 0u32.wrapping_sub((limit as u32) << 1) };
         let limits = rule.bounds.map(|bound| bound.together().map(|limit| (limit, beyond(limit))));
-        Self { front, rule, border: reach.border, limits, marked: u32::MAX, tally: Tally::default() }
+        let key_limit = key_limit(rule.separation, key_shift::<L, B>(front.record()).unwrap_or(0));
+        let (border, tally) = (reach.border, Tally::default());
+        Self { front, rule, border, key_limit, empties: true, limits, marked: u32::MAX, tally }
     }
 
     /// Columns.
@@ -97,20 +177,31 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     /// something in a cell, it stays; [`NO_PASS`] leaves nothing. The first cell of the row, if there is one.
     pub fn begin<const WAY: u32>(&mut self, y: u32, row: &mut [u32]) -> Option<u32> {
         let start = self.front.grid().row(y as i32)?;
-        let kept = if WAY == NO_PASS { 0 } else { 0xff << (WAY ^ 8) };
-        self.marked = !kept;
-        let cells = start as usize..(start + self.front.grid().width()) as usize;
-        if !self.front.any_empty(start, self.front.grid().width()) {
-            for word in row.iter_mut() {
-                *word &= kept;
-            }
-            return Some(start);
-        }
-        for (word, key) in row.iter_mut().zip(self.front.keys(cells)) {
-            let empty = self.front.class_of(key) == Class::Empty as u32;
-            *word = *word & kept | if empty { ONLY_ITSELF & !kept } else { 0 };
+        self.clear::<WAY>(row);
+        self.empties = self.front.any_empty(start, self.front.grid().width());
+        if self.empties {
+            self.lay_open(start, row);
         }
         Some(start)
+    }
+
+    /// Begins a row that is the next one to [`Self::rows`], which lays open its empty cells.
+    pub fn clear<const WAY: u32>(&mut self, row: &mut [u32]) {
+        let kept = if WAY == NO_PASS { 0 } else { 0xff << (WAY ^ 8) };
+        self.marked = !kept;
+        for word in row {
+            *word &= kept;
+        }
+    }
+
+    /// What is in the empty cells of a row that begins at cell `start` is not hidden.
+    fn lay_open(&self, start: u32, row: &mut [u32]) {
+        let cells = start as usize..(start + self.front.grid().width()) as usize;
+        for (x, key) in (0..).zip(self.front.keys(cells)) {
+            if self.front.class_of(key) == Class::Empty as u32 {
+                self.raise(row, x, ONLY_ITSELF);
+            }
+        }
     }
 
     /// Marks what is uncovered in row `y`, which is `here`, and in row `y + 1`, which is `next`, by pairs of one cell in each; and in row `y` by pairs in
@@ -119,22 +210,32 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let grid = *self.front.grid();
         let Some(row) = grid.row(y as i32) else { return };
         let below = grid.row(y as i32 + 1);
-        let (mut in_row, mut between) = ([0; RUN], [0; RUN]);
+        let empties = !IN_ROW || self.empties;
+        let (mut flags, mut empties_below) = ([0; RUN], false);
+        let (mut pairs_in_row, mut pairs_between) = (Waiting::NONE, Waiting::NONE);
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(RUN as u32);
-            // All that the pairs are made of is in the cache after these.
             if let Some(below) = below {
-                self.compare::<1>(row + x, below + x, &mut between);
+                let seen = self.compare::<1>(row + x, below + x, empties, &mut flags);
+                empties_below |= seen.empties;
+                if seen.flags {
+                    self.pairs_between(&flags, [row, below], x..x + cells, &mut pairs_between, here, next);
+                }
             }
-            if IN_ROW {
-                self.compare::<0>(row + x, row + x + 1, &mut in_row);
-                self.pairs_in_row(&in_row, row, x..(x + cells).min(grid.width() - 1), here);
-            }
-            if let Some(below) = below {
-                self.pairs_between(&between, [row, below], x..x + cells, here, next);
+            if IN_ROW && self.compare::<0>(row + x, row + x + 1, empties, &mut flags).flags {
+                let columns = x..(x + cells).min(grid.width() - 1);
+                self.pairs_in_row(&flags, row, columns, &mut pairs_in_row, here);
             }
             x += cells;
+        }
+        self.settle_in_row(&mut pairs_in_row, row, here);
+        if let Some(below) = below {
+            self.settle_between(&mut pairs_between, [row, below], here, next);
+            self.empties = empties_below;
+            if empties_below {
+                self.lay_open(below, next);
+            }
         }
         if IN_ROW && self.border == Border::Still {
             self.beyond(y, row, here);
@@ -142,26 +243,23 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     }
 
     /// Flags the lanes that must be looked at: those of two surfaces, and those that may part. The pairs are those of the cells from
-    /// `one` and from `other` on; all are flagged where the map ends before the run does.
+    /// `one` and from `other` on, of which the first ones may be empty only if `empties`; all are flagged where the map ends before the run does.
     #[inline(always)]
-    fn compare<const ALONG: usize>(&self, one: u32, other: u32, flags: &mut [u32; RUN]) {
+    fn compare<const ALONG: usize>(&self, one: u32, other: u32, empties: bool, flags: &mut [u32; RUN]) -> Seen {
         let one = Lanes::at::<L, B, ALONG>(self.front, one);
-        let (Some(one), Some(other)) = (one, Lanes::at::<L, B, ALONG>(self.front, other)) else {
+        let (Some(one), Some(other), Some((limit, beyond))) =
+            (one, Lanes::at::<L, B, ALONG>(self.front, other), self.key_limit)
+        else {
             *flags = [1; RUN];
-            return;
+            return Seen { flags: true, empties: true };
         };
         let record = self.front.record();
-        let (separation, [(v_limit, v_beyond), (a_limit, a_beyond)]) = (self.rule.separation, self.limits[ALONG]);
+        let [(v_limit, v_beyond), (a_limit, a_beyond)] = self.limits[ALONG];
         let (v, a) = (record.velocity(ALONG).extract(), record.acceleration(ALONG).extract());
-        let depth_bits = record.depth().bits;
-        // The sign is set where the difference is the separation or more.
-        let within = separation.wrapping_sub(1);
+        let (mut any, mut twos) = (0, 0);
         for (lane, flag) in flags.iter_mut().enumerate() {
             let (key, other_key) = (one.key::<L, B>(record, lane), other.key::<L, B>(record, lane));
-            let farther = other_key.wrapping_sub(key) as i32;
-            let apart = within.wrapping_sub(farther) | within.wrapping_add(farther);
-            // Keys of empty cells say nothing.
-            let mut look = apart as u32 & 1 << 31 | (key ^ other_key) >> depth_bits;
+            let mut look = other_key.wrapping_sub(key).wrapping_add(limit) & beyond;
             if L::LANES.velocity {
                 let (one, other) = (signed(v, one.v, lane), signed(v, other.v, lane));
                 look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
@@ -171,47 +269,96 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
                 look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
             }
             *flag = look;
+            any |= look;
+            if ALONG == 1 {
+                // As in `Galpixmap::any_empty`.
+                let class = other.class[lane & (RUN - 1)];
+                twos |= class & class << 1;
+            }
         }
+        let empties_below = twos >> record.class().shift >> 1 & 1 != 0;
+        if empties || empties_below {
+            // Keys of empty cells say nothing.
+            let class = record.class().extract();
+            for ((flag, &one), &other) in flags.iter_mut().zip(one.class).zip(other.class) {
+                *flag |= class.unsigned(one ^ other, one ^ other);
+                any |= *flag;
+            }
+        }
+        Seen { flags: any != 0, empties: empties_below }
     }
 
-    /// Looks at the flagged pairs of neighbours in a row, of which the left ones are in the columns `columns`.
-    fn pairs_in_row(&mut self, flags: &[u32; RUN], row: u32, columns: Range<u32>, here: &mut [u32]) {
+    /// Reads the flagged pairs of neighbours in a row, of which the left ones are in the columns `columns`, and looks at them where no more can wait.
+    #[inline(always)]
+    fn pairs_in_row(
+        &mut self,
+        flags: &[u32; RUN],
+        row: u32,
+        columns: Range<u32>,
+        pairs: &mut Waiting,
+        here: &mut [u32],
+    ) {
         let mut start = columns.start;
         for eight in flags.as_chunks::<8>().0 {
             if any(eight) {
                 for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
-                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
-                    let uncovered = self.uncovered::<0>(&one, &other);
-                    self.raise(here, x, uncovered.first);
-                    self.raise(here, x + 1, uncovered.second);
+                    if pairs.wait(x) {
+                        self.settle_in_row(pairs, row, here);
+                    }
                 }
             }
             start += 8;
         }
     }
 
-    /// Looks at the flagged pairs of neighbours in two rows.
+    /// Reads the flagged pairs of neighbours in two rows.
+    #[inline(always)]
     fn pairs_between(
         &mut self,
         flags: &[u32; RUN],
-        rows: [u32; 2],
+        [row, below]: [u32; 2],
         columns: Range<u32>,
+        pairs: &mut Waiting,
         here: &mut [u32],
         next: &mut [u32],
     ) {
-        let [row, below] = rows;
         let mut start = columns.start;
         for eight in flags.as_chunks::<8>().0 {
             if any(eight) {
                 for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
-                    let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
-                    let uncovered = self.uncovered::<1>(&one, &other);
-                    self.raise(here, x, uncovered.first);
-                    self.raise(next, x, uncovered.second);
+                    if pairs.wait(x) {
+                        self.settle_between(pairs, [row, below], here, next);
+                    }
                 }
             }
             start += 8;
         }
+    }
+
+    /// Looks at the pairs of neighbours in a row that wait.
+    #[inline(never)]
+    fn settle_in_row(&mut self, pairs: &mut Waiting, row: u32, here: &mut [u32]) {
+        pairs.bring(self.front, row, row + 1);
+        for &x in pairs.columns.iter().take(pairs.count) {
+            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
+            let uncovered = self.uncovered::<0>(&one, &other);
+            self.raise(here, x, uncovered.first);
+            self.raise(here, x + 1, uncovered.second);
+        }
+        pairs.count = 0;
+    }
+
+    /// Looks at the pairs of neighbours in two rows that wait.
+    #[inline(never)]
+    fn settle_between(&mut self, pairs: &mut Waiting, [row, below]: [u32; 2], here: &mut [u32], next: &mut [u32]) {
+        pairs.bring(self.front, row, below);
+        for &x in pairs.columns.iter().take(pairs.count) {
+            let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
+            let uncovered = self.uncovered::<1>(&one, &other);
+            self.raise(here, x, uncovered.first);
+            self.raise(next, x, uncovered.second);
+        }
+        pairs.count = 0;
     }
 
     /// Looks at the cells at the border of a row, beside something still and far away.
@@ -257,4 +404,42 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
 #[inline(always)]
 fn any(flags: &[u32; 8]) -> bool {
     flags.iter().fold(0, |any, flag| any | flag) != 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::key_limit;
+
+    #[test]
+    fn keys_that_are_let_pass_are_less_than_the_separation_apart() {
+        for shift in [0, 1, 10, 24] {
+            let classes = 1i64 << (30 - shift);
+            for separation in [1, 2, 3, 4, 5, 100, 1 << 16, 1 << 30] {
+                let (limit, beyond) = key_limit(separation, shift).unwrap();
+                let separation = i64::from(separation);
+                let mut passed = 0;
+                for key in [0, 1, classes - 1, classes, 2 * classes, 3 * classes - 1] {
+                    for apart in
+                        [0, 1, separation / 2, separation - 1, separation, separation + 1, classes, 3 * classes - 1]
+                    {
+                        // All keys but those of empty cells.
+                        for other in
+                            [key - apart, key + apart].into_iter().filter(|other| (0..3 * classes).contains(other))
+                        {
+                            for (low, other_low) in [(0, 0), (0, u32::MAX), (u32::MAX, 0)] {
+                                let word = |key: i64, low: u32| (key as u32) << shift | low & ((1 << shift) - 1);
+                                let difference = word(other, other_low).wrapping_sub(word(key, low));
+                                let passes = difference.wrapping_add(limit) & beyond == 0;
+                                assert!(!passes || apart < separation, "{key} {other} {separation} {shift}");
+                                assert!(passes || apart > 0 || low != other_low);
+                                passed += u32::from(passes && apart > 0);
+                            }
+                        }
+                    }
+                }
+                assert!(passed > 0 || separation == 1 || separation > classes, "{separation} {shift}");
+            }
+        }
+        assert_eq!(key_limit(0, 0), None);
+    }
 }

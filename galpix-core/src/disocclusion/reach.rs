@@ -130,6 +130,17 @@ impl Bound {
     /// The largest sum of `s - s' + slack` over the first 1 to `frames` frames.
     #[inline(always)]
     fn most(&self, of: &Relative, slack: i64) -> i64 {
+        if VECTORS { self.most_here(of, slack) } else { self.most_apart(of, slack) }
+    }
+
+    /// The same as a function, of which nothing is known where it is called: of sums of shifts beside each other with both signs products are made.
+    #[inline(never)]
+    fn most_apart(&self, of: &Relative, slack: i64) -> i64 {
+        self.most_here(of, slack)
+    }
+
+    #[inline(always)]
+    fn most_here(&self, of: &Relative, slack: i64) -> i64 {
         if let Some([one, other]) = of.saturating {
             return self.most_in_steps(one, other, slack);
         }

@@ -4,11 +4,22 @@
 //! extents, the one that moves with the scan shorter by one, and the next cell takes the larger of these and its own; the
 //! order is that of the memory, and nothing is needed beside the map itself. A cell that is shut on the way of a scan takes nothing.
 
-use super::extents::{DOWNWARDS, EXTENTS, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, shorter, taken};
+use super::extents::{
+    DOWNWARDS, EXTENTS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, extent, handed_on, shorter, taken,
+};
 use crate::grid::Grid;
+use crate::sweep::VECTORS;
 
 /// Cells that are passed by at once where nothing is uncovered.
 const BLOCK: usize = 16;
+
+/// Brings some words into the cache: all are asked for at once, before the first of them is waited for.
+#[inline(always)]
+pub(crate) fn bring(words: &[u32]) {
+    if VECTORS {
+        core::hint::black_box(words.iter().step_by(BLOCK).fold(0, |any, word| any | word));
+    }
+}
 
 /// Scans a row to the right and to the left. Only the bits `carried` of what is handed on are.
 #[inline(always)]
@@ -18,7 +29,9 @@ pub(crate) fn along(row: &mut [u32], carried: u32) {
     let mut anything = any(rest);
     for block in &mut *blocks {
         let own = any(block);
-        if handed | own & reaching::<TO_THE_RIGHT>() != 0 {
+        if own == 0 && goes_on::<TO_THE_RIGHT>(handed) {
+            handed = fill::<TO_THE_RIGHT>(block.iter_mut(), handed);
+        } else if handed | own & reaching::<TO_THE_RIGHT>() != 0 {
             handed = rightwards(block, handed, carried);
         }
         anything |= own;
@@ -29,7 +42,10 @@ pub(crate) fn along(row: &mut [u32], carried: u32) {
     }
     handed = leftwards(rest, 0, carried);
     for block in blocks.iter_mut().rev() {
-        if handed | any(block) & reaching::<TO_THE_LEFT>() != 0 {
+        let own = any(block);
+        if own == 0 && goes_on::<TO_THE_LEFT>(handed) {
+            handed = fill::<TO_THE_LEFT>(block.iter_mut().rev(), handed);
+        } else if handed | own & reaching::<TO_THE_LEFT>() != 0 {
             handed = leftwards(block, handed, carried);
         }
     }
@@ -44,6 +60,22 @@ fn any(block: &[u32]) -> u32 {
 /// Bits of which a cell has one if it hands on anything.
 const fn reaching<const WAY: u32>() -> u32 {
     0x7e << WAY
+}
+
+/// Whether what is handed on reaches through a whole block, and beyond.
+#[inline(always)]
+const fn goes_on<const WAY: u32>(handed: u32) -> bool {
+    extent::<WAY>(handed) > BLOCK as u32
+}
+
+/// Hands on through a block without extents, all of which it reaches; what the block hands on. As [`along_by_one`], cell by cell.
+#[inline(always)]
+fn fill<'b, const WAY: u32>(block: impl Iterator<Item = &'b mut u32>, handed: u32) -> u32 {
+    let ends = if extent::<WAY>(handed) == Extents::NO_END as u32 { 0 } else { u32::MAX };
+    for (word, cell) in block.zip(0u32..) {
+        *word = handed.wrapping_sub(cell << WAY & ends);
+    }
+    handed.wrapping_sub((BLOCK as u32) << WAY & ends)
 }
 
 #[inline(always)]
@@ -119,6 +151,7 @@ pub(crate) fn upwards(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
     let mut covered = 0;
     for &start in grid.starts().iter().rev() {
         if let Some((row, below)) = rows(extents, start, width) {
+            bring(row);
             across::<UPWARDS>(below, row);
         }
         let row = extents.get_mut(start as usize..(start + width) as usize).unwrap_or_default();

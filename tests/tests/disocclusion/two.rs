@@ -152,7 +152,7 @@ fn report(what: &str, count: Count) {
         count.hiding,
         count.hiding as f64 / count.uncovered as f64,
     );
-    assert!(count.uncovered > 0 && count.hiding < 8 * count.uncovered);
+    assert!(count.uncovered > 0 && count.hiding < 9 * count.uncovered);
 }
 
 /// One of every `share` masks, another one for each scene.
@@ -160,15 +160,15 @@ fn sampled(share: u32) -> impl Fn(usize, u16) -> bool + Sync {
     move |scene, mask| (u32::from(mask).wrapping_add(scene as u32)).wrapping_mul(0x9e37_79b1) >> 16 < 65536 / share
 }
 
-/// All maps, all differences of whole velocities from -2 to 1, 1 to 3 frames.
+/// All maps, all differences of whole velocities from -2 to 1, 3 frames.
 #[test]
 fn all_maps_of_two_velocities() {
     let pairs = distinct(&states(SLIDE, &[[0, 0]]));
     assert_eq!(pairs.len(), 49);
-    report("all maps, all differences of velocities", check::<TinyDeepSlide>(SLIDE, &pairs, |_, _| true, 1..=3));
+    report("all maps, all differences of velocities", check::<TinyDeepSlide>(SLIDE, &pairs, |_, _| true, 3..=3));
 }
 
-/// The same of all pairs of velocities, of a part of the maps: a map depends on the difference alone.
+/// The same of all pairs of velocities, for 1 to 3 frames, of a part of the maps: a map depends on the difference alone.
 #[test]
 fn all_velocities() {
     let states = states(SLIDE, &[[0, 0]]);
