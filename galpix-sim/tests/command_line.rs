@@ -475,7 +475,8 @@ fn vectors_are_written_whole_and_again_the_same() {
     assert_ne!(one["cases"], other["cases"]);
     let kinds: BTreeSet<&str> =
         one["cases"].as_array().expect("cases").iter().filter_map(|case| case["kind"].as_str()).collect();
-    assert_eq!(kinds, BTreeSet::from(["step", "resolve", "edge", "fill", "frame", "inpaint"]));
+    let known = ["step", "resolve", "edge", "fill", "frame", "inpaint", "layers", "objects", "disocclusion"];
+    assert_eq!(kinds, BTreeSet::from(known));
     for case in one["cases"].as_array().expect("cases") {
         for file in case["files"].as_array().expect("files") {
             assert!(folder.path().join("a").join(file["path"].as_str().expect("a path")).is_file(), "{file}");
