@@ -21,6 +21,7 @@ pub use sweep::sweep;
 
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
+use crate::grid::Grid;
 use crate::layout::Layout;
 use crate::record::{Record, Words};
 
@@ -46,6 +47,18 @@ pub(crate) const fn below(a: u32, b: u32) -> u32 {
 #[inline(always)]
 pub(crate) const fn choose(mask: u32, a: u32, b: u32) -> u32 {
     b ^ (a ^ b) & mask
+}
+
+/// All ones for a place that is not on the grid, else 0.
+#[inline(always)]
+pub(crate) fn beyond(grid: &Grid<'_>, [x, y]: [i32; 2]) -> u32 {
+    negative(x) | negative(y) | !negative(x - grid.width() as i32) | !negative(y - grid.height() as i32)
+}
+
+/// The cell of a place; the first one where `beyond` has ones.
+#[inline(always)]
+pub(crate) fn cell_or_first(grid: &Grid<'_>, [x, y]: [i32; 2], beyond: u32) -> u32 {
+    grid.row(y & !beyond as i32).unwrap_or(0) + (x & !beyond as i32) as u32
 }
 
 /// A mask of whose origin the optimiser knows nothing.

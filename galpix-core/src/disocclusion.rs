@@ -125,10 +125,7 @@ pub fn map<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, extents: &mut [
     let mut marker = Marker::new(front, reach);
     for (&start, y) in grid.starts().iter().zip(0..) {
         mark_row(&mut marker, y, start, extents);
-        if let Some(row) = extents.get_mut(start as usize..(start + grid.width()) as usize) {
-            spread::along(row, u32::MAX);
-        }
-        spread::downwards(extents, start, grid.width());
+        spread::down(extents, start, grid.width());
     }
     Tally { covered: spread::upwards(extents, &grid), ..marker.tally }
 }

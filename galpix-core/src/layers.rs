@@ -55,10 +55,6 @@ pub struct LayersTally<const HIDDEN: usize> {
     pub shown: [u32; HIDDEN],
 }
 
-impl<const HIDDEN: usize> LayersTally<HIDDEN> {
-    const NOTHING: Self = Self { base: Tally::ZERO, hidden: [Tally::ZERO; HIDDEN], shown: [0; HIDDEN] };
-}
-
 /// A base and `HIDDEN` further layers over the same grid and budget. With none of these it is a [`Controller`].
 #[derive(Debug)]
 pub struct Layers<'p, L, B, const HIDDEN: usize> {
@@ -86,7 +82,7 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Layers<'p, L, B, HIDDEN> 
         self.resolve(settings.work);
         self.take_back(settings.work);
         let Controller { front, back, scratch, frame } = &mut self.base;
-        let mut tally = LayersTally::NOTHING;
+        let mut tally = LayersTally { base: Tally::default(), hidden: [Tally::default(); HIDDEN], shown: [0; HIDDEN] };
         tally.base = move_on(front, back, scratch, settings, *frame);
         // Not zipped: that is walked by index, and an index is multiplied by the size of a layer.
         let mut tallies = tally.hidden.iter_mut();

@@ -27,20 +27,6 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Nothing was counted.
-    pub const ZERO: Self = Self {
-        moved: 0,
-        lost: 0,
-        collided: 0,
-        saturated: 0,
-        edges: 0,
-        holes: 0,
-        bullets: 0,
-        debris: 0,
-        galdebris: 0,
-        empty: 0,
-    };
-
     /// Holes that something was put into.
     #[must_use]
     pub const fn filled(&self) -> u32 {

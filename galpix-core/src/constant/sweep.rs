@@ -1,6 +1,6 @@
 //! Propagation and resolution, cell by cell in raster order: every galpixel, also one that is not there, challenges one cell.
 
-use super::{below, empty, merge, merge_word, negative};
+use super::{below, beyond, cell_or_first, empty, merge, merge_word};
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
 use crate::layout::Layout;
@@ -34,13 +34,10 @@ pub fn sweep<L: Layout, B: Budget<L>>(
             let step = advance::<L, true>(record, &thresholds, &mut words);
             let key = resolve::key(record, &words);
             let there = !empty(front.class_of(key));
-            let (to_x, to_y) = (x + step.dx, y + step.dy);
-            let beyond = negative(to_x)
-                | negative(to_y)
-                | !negative(to_x - grid.width() as i32)
-                | !negative(to_y - grid.height() as i32);
+            let place = [x + step.dx, y + step.dy];
+            let beyond = beyond(&grid, place);
             // In raster order the incumbent has the smaller source: of equal keys it stays.
-            let cell = grid.row(to_y & !beyond as i32).unwrap_or(0) + (to_x & !beyond as i32) as u32;
+            let cell = cell_or_first(&grid, place, beyond);
             let incumbent = back.key_at(cell).unwrap_or(0);
             let challenges = there & !beyond;
             let wins = challenges & below(key, incumbent);

@@ -73,24 +73,7 @@ fn at(words: &[u32], cell: u32) -> u32 {
 /// The cell `by` cells back on a scan.
 fn back(grid: &Grid<'_>, scan: Scan, x: u32, y: u32, by: i32) -> Option<u32> {
     let [dx, dy] = scan.back;
-    grid.cell(
-        x as i32
-            + if dx < 0 {
-                -by
-            } else if dx > 0 {
-                by
-            } else {
-                0
-            },
-        y as i32
-            + if dy < 0 {
-                -by
-            } else if dy > 0 {
-                by
-            } else {
-                0
-            },
-    )
+    grid.cell(x as i32 + dx * by, y as i32 + dy * by)
 }
 
 /// Each cell that has one `by` cells back becomes `new(itself, that one, its number)`.

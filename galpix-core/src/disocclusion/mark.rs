@@ -220,12 +220,19 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
                 let seen = self.compare::<1>(row + x, below + x, empties, &mut flags);
                 empties_below |= seen.empties;
                 if seen.flags {
-                    self.pairs_between(&flags, [row, below], x..x + cells, &mut pairs_between, here, next);
+                    for x in flagged(&flags, x..x + cells) {
+                        if pairs_between.wait(x) {
+                            self.settle_between(&mut pairs_between, [row, below], here, next);
+                        }
+                    }
                 }
             }
             if IN_ROW && self.compare::<0>(row + x, row + x + 1, empties, &mut flags).flags {
-                let columns = x..(x + cells).min(grid.width() - 1);
-                self.pairs_in_row(&flags, row, columns, &mut pairs_in_row, here);
+                for x in flagged(&flags, x..(x + cells).min(grid.width() - 1)) {
+                    if pairs_in_row.wait(x) {
+                        self.settle_in_row(&mut pairs_in_row, row, here);
+                    }
+                }
             }
             x += cells;
         }
@@ -286,53 +293,6 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
             }
         }
         Seen { flags: any != 0, empties: empties_below }
-    }
-
-    /// Reads the flagged pairs of neighbours in a row, of which the left ones are in the columns `columns`, and looks at them where no more can wait.
-    #[inline(always)]
-    fn pairs_in_row(
-        &mut self,
-        flags: &[u32; RUN],
-        row: u32,
-        columns: Range<u32>,
-        pairs: &mut Waiting,
-        here: &mut [u32],
-    ) {
-        let mut start = columns.start;
-        for eight in flags.as_chunks::<8>().0 {
-            if any(eight) {
-                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
-                    if pairs.wait(x) {
-                        self.settle_in_row(pairs, row, here);
-                    }
-                }
-            }
-            start += 8;
-        }
-    }
-
-    /// Reads the flagged pairs of neighbours in two rows.
-    #[inline(always)]
-    fn pairs_between(
-        &mut self,
-        flags: &[u32; RUN],
-        [row, below]: [u32; 2],
-        columns: Range<u32>,
-        pairs: &mut Waiting,
-        here: &mut [u32],
-        next: &mut [u32],
-    ) {
-        let mut start = columns.start;
-        for eight in flags.as_chunks::<8>().0 {
-            if any(eight) {
-                for (_, x) in eight.iter().zip(start..columns.end).filter(|(flag, _)| **flag != 0) {
-                    if pairs.wait(x) {
-                        self.settle_between(pairs, [row, below], here, next);
-                    }
-                }
-            }
-            start += 8;
-        }
     }
 
     /// Looks at the pairs of neighbours in a row that wait.
@@ -400,10 +360,15 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     }
 }
 
-/// Whether any lane is flagged.
+/// Those of some columns, which a run begins with, that are flagged.
 #[inline(always)]
-fn any(flags: &[u32; 8]) -> bool {
-    flags.iter().fold(0, |any, flag| any | flag) != 0
+fn flagged(flags: &[u32; RUN], columns: Range<u32>) -> impl Iterator<Item = u32> {
+    let Range { start, end } = columns;
+    let eights = flags.as_chunks::<8>().0.iter().zip((0..).map(move |eight| start + 8 * eight));
+    let any = |eight: &[u32; 8]| eight.iter().fold(0, |any, flag| any | flag) != 0;
+    eights
+        .filter(move |(eight, _)| any(eight))
+        .flat_map(move |(eight, first)| eight.iter().zip(first..end).filter(|(flag, _)| **flag != 0).map(|(_, x)| x))
 }
 
 #[cfg(test)]

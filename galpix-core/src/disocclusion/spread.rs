@@ -135,9 +135,18 @@ pub(crate) fn rows(extents: &mut [u32], start: u32, width: u32) -> Option<(&mut 
     two.split_at_mut_checked(width as usize)
 }
 
+/// The scans of the way down for the row that begins at `start`: along it, and what the one above it hands on.
+#[inline(always)]
+pub(crate) fn down(extents: &mut [u32], start: u32, width: u32) {
+    if let Some(row) = extents.get_mut(start as usize..(start + width) as usize) {
+        along(row, u32::MAX);
+    }
+    downwards(extents, start, width);
+}
+
 /// The row that begins at `start` takes what the one above it hands on.
 #[inline(always)]
-pub(crate) fn downwards(extents: &mut [u32], start: u32, width: u32) {
+fn downwards(extents: &mut [u32], start: u32, width: u32) {
     if let Some(above) = start.checked_sub(width)
         && let Some((above, row)) = rows(extents, above, width)
     {
@@ -186,10 +195,7 @@ fn opened(block: &mut [u32]) -> u32 {
 /// as it is where extents only come from cells that are uncovered; mark anew before each spreading.
 pub fn spread(extents: &mut [u32], grid: &Grid<'_>) -> u32 {
     for &start in grid.starts() {
-        if let Some(row) = extents.get_mut(start as usize..(start + grid.width()) as usize) {
-            along(row, u32::MAX);
-        }
-        downwards(extents, start, grid.width());
+        down(extents, start, grid.width());
     }
     upwards(extents, grid)
 }

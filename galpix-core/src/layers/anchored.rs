@@ -5,7 +5,7 @@
 //! cell of its own plus its displacement, if it is the smallest by (class, depth, source) there. So an image whose samples do not
 //! lie where they are seen, as that of a depth discontinuity occlusion camera, moves like any other.
 
-use crate::constant::{below, empty, merge, merge_word, negative, opaque};
+use crate::constant::{below, beyond, cell_or_first, empty, merge, merge_word, opaque};
 use crate::frame::Work;
 use crate::galpixel::{Budget, Class};
 use crate::galpixmap::Galpixmap;
@@ -79,24 +79,18 @@ impl<L: Layout, B: Budget<L>> Anchored<'_, L, B> {
                     merge(&mut self.stored, source, &words, there);
                 }
                 let [dx, dy] = displacement(*place);
-                let (to_x, to_y) = (x + dx, y + dy);
-                let beyond = opaque(
-                    negative(to_x)
-                        | negative(to_y)
-                        | !negative(to_x - grid.width() as i32)
-                        | !negative(to_y - grid.height() as i32),
-                );
-                let within = !beyond;
-                let cell = grid.row(to_y & within as i32).unwrap_or(0) + (to_x & within as i32) as u32;
+                let place = [x + dx, y + dy];
+                let beyond = opaque(beyond(&grid, place));
+                let cell = cell_or_first(&grid, place, beyond);
                 let incumbent = drawn.key_at(cell).unwrap_or(0);
                 let key = resolve::key(record, &words);
-                let challenges = there & within;
+                let challenges = there & !beyond;
                 // In raster order the incumbent has the smaller source: of equal keys it stays.
                 let wins = opaque(challenges & below(key, incumbent));
                 merge(drawn, cell, &words, wins);
                 merge_word(winners, cell, source, wins);
                 tally.moved += there & 1;
-                tally.lost += there & !within & 1;
+                tally.lost += there & beyond & 1;
                 tally.collided += challenges & !empty(drawn.class_of(incumbent)) & 1;
             }
         }

@@ -84,12 +84,11 @@ impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
         }
         scratch.check(front.grid().cells(), edge::words(front.grid()))?;
         let (need, have) = (seat_words(front.grid()), seats.len());
-        let halves = seats.split_at_mut_checked(need / 2);
+        let halves = seats.get_mut(..need).and_then(|seats| {
+            seats.fill(0);
+            seats.split_at_mut_checked(need / 2)
+        });
         let (seats, seats_before) = halves.ok_or(SetupError::TooShort { plane: "plane of seats", need, have })?;
-        let seats_before =
-            seats_before.get_mut(..need / 2).ok_or(SetupError::TooShort { plane: "plane of seats", need, have })?;
-        seats.fill(0);
-        seats_before.fill(0);
         Ok(Self { front, back, scratch, seats, seats_before, anchored })
     }
 
