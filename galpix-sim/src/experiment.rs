@@ -218,7 +218,7 @@ pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) ->
 }
 
 /// Whether any galpixel of an update brightens or darkens.
-fn needs_luminosity(update: &Update) -> bool {
+pub(crate) fn needs_luminosity(update: &Update) -> bool {
     update.samples.iter().any(|sample| sample.luminosity_rate != 0.0)
 }
 

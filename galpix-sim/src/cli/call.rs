@@ -2,8 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use super::CliError;
+use super::{CliError, demo, print, print_json};
+use crate::capture::ImportOptions;
+use crate::experiment::Source;
 use crate::report;
+
+/// The sources that are named; all scenes and the capture marbles if none is.
+pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
+    let open = |name: &String| Source::open(name, options).map_err(CliError::unusable);
+    if names.is_empty() { Ok(demo::sources()) } else { names.iter().map(open).collect() }
+}
 
 /// The call, as it can be repeated.
 pub fn command() -> String {
@@ -50,13 +58,34 @@ pub fn write(out: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
     })
 }
 
+/// Writes the files of a study, of which the last one is its page, into the folder that it has; then prints the document if that was asked
+/// for, else the path of the page.
+pub fn publish(
+    out: Option<&Path>,
+    json: bool,
+    document: &impl serde::Serialize,
+    files: impl FnOnce() -> Result<Vec<(&'static str, String)>, CliError>,
+) -> Result<(), CliError> {
+    let mut page = None;
+    if let Some(out) = out {
+        let files = files()?;
+        write(out, &files)?;
+        page = files.last().map(|(name, _)| out.join(name));
+    }
+    match page {
+        _ if json => print_json(document),
+        Some(page) => print(&page.display().to_string()),
+        None => Ok(()),
+    }
+}
+
 /// A document as the text of a file.
 pub fn json(document: &impl serde::Serialize) -> Result<String, CliError> {
     Ok(serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))? + "\n")
 }
 
 /// Makes the folder and tries to write into it, before anything is measured.
-pub(super) fn writable(out: &Path) -> Result<(), CliError> {
+pub fn writable(out: &Path) -> Result<(), CliError> {
     let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
     std::fs::create_dir_all(out).map_err(unwritable)?;
     let probe = out.join(format!(".galpix.{}.probe", std::process::id()));

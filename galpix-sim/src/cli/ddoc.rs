@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use galpix_core::ddoc::MOST_RADIUS;
 
-use super::call::{command, machine, writable};
+use super::call::{self, command, machine};
 use super::{CliError, file_name, print, print_json};
 use crate::ddoc::pictures::Pictures;
 use crate::ddoc::report::{self, Document};
@@ -62,14 +62,7 @@ impl Ddoc {
         };
         let worlds =
             names.iter().map(|name| ddoc::open(name)).collect::<Result<Vec<_>, _>>().map_err(CliError::unusable)?;
-        let out = match (&self.out, self.json) {
-            (Some(out), _) => Some(out.clone()),
-            (None, true) => None,
-            (None, false) => Some(PathBuf::from("galpix-out/ddoc")),
-        };
-        if let Some(out) = &out {
-            writable(out)?;
-        }
+        let out = call::folder(self.out.as_ref(), self.json, "ddoc")?;
         if !self.json {
             print(&report::head())?;
         }
@@ -101,17 +94,12 @@ impl Ddoc {
 
 /// Writes the pictures, the figures, and last the page.
 fn write(out: &Path, document: &Document, all: &[Pictures]) -> Result<(), CliError> {
-    let save = |name: String, bytes: &[u8]| {
-        let path = out.join(name);
-        write_atomically(&path, bytes).map_err(|error| CliError::unwritable(&path, &error))
-    };
     for (source, pictures) in document.sources.iter().zip(all) {
         for (name, _, picture) in &pictures.all {
             let png = picture.png().map_err(|error| CliError::Failed(error.to_string()))?;
-            save(format!("{}-{name}.png", file_name(&source.source)), &png)?;
+            let path = out.join(format!("{}-{name}.png", file_name(&source.source)));
+            write_atomically(&path, &png).map_err(|error| CliError::unwritable(&path, &error))?;
         }
     }
-    let json = serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))?;
-    save("ddoc.json".to_owned(), (json + "\n").as_bytes())?;
-    save("ddoc.html".to_owned(), page::html(document, all).as_bytes())
+    call::write(out, &[("ddoc.json", call::json(document)?), ("ddoc.html", page::html(document, all))])
 }

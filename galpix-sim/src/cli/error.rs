@@ -9,8 +9,8 @@ use galpix_core::rounding::Rounding;
 
 use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
-use super::{CliError, print, print_json};
-use crate::experiment::{Request, Source};
+use super::{CliError, print};
+use crate::experiment::Request;
 use crate::fill::Fill;
 use crate::progress;
 use crate::tradeoff::design::{Extent, Kept};
@@ -102,8 +102,7 @@ impl Error {
     pub fn run(&self) -> Result<(), CliError> {
         let started = Instant::now();
         let plan = self.plan()?;
-        let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
-        let sources: Vec<Source> = self.sources.iter().map(open).collect::<Result<_, _>>()?;
+        let sources = call::sources(&self.sources, &self.acceleration.into())?;
         sources.iter().try_for_each(|source| tradeoff::check(source, &plan).map_err(CliError::unusable))?;
         let out = call::folder(self.out.as_ref(), self.json, "error")?;
         let mut reports: Vec<SourceReport> = Vec::new();
@@ -127,20 +126,13 @@ impl Error {
             seconds: started.elapsed().as_secs_f64(),
             sources: reports,
         };
-        if let Some(out) = &out {
-            // The page last, so that where there is one, the others are there too.
-            let files = [
+        call::publish(out.as_deref(), self.json, &document, || {
+            Ok(vec![
                 ("error.csv", csv::csv(&document)),
                 ("error.json", call::json(&document)?),
                 ("error.html", page::html(&document)),
-            ];
-            call::write(out, &files)?;
-        }
-        match out {
-            _ if self.json => print_json(&document),
-            Some(out) => print(&out.join("error.html").display().to_string()),
-            None => Ok(()),
-        }
+            ])
+        })
     }
 
     fn plan(&self) -> Result<Plan, CliError> {

@@ -7,9 +7,8 @@ use clap::Args;
 
 use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, Inpainting};
-use super::demo::sources;
-use super::{CliError, check, print, print_json, printable, printable_lines, say};
-use crate::experiment::{Request, Source};
+use super::{CliError, check, print, printable, printable_lines, say};
+use crate::experiment::Request;
 use crate::fill::Gamma;
 use crate::fills::case::{self, Case};
 use crate::fills::export::{self, Export};
@@ -48,11 +47,7 @@ impl Fills {
     pub fn run(&self) -> Result<(), CliError> {
         let started = Instant::now();
         let plan = self.plan()?;
-        let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
-        let sources = match self.sources.as_slice() {
-            [] => sources(),
-            names => names.iter().map(open).collect::<Result<_, _>>()?,
-        };
+        let sources = call::sources(&self.sources, &self.acceleration.into())?;
         sources.iter().try_for_each(|source| check(source, &plan.request))?;
         let out = call::folder(self.out.as_ref(), self.json, "fills")?;
         let export = out.as_deref().map(Export::new);
@@ -89,22 +84,15 @@ impl Fills {
         if !self.json {
             print(table::LEGEND)?;
         }
-        if let Some(out) = &out {
+        call::publish(out.as_deref(), self.json, &document, || {
             let index = export::index(&document).map_err(|error| CliError::Failed(error.to_string()))?;
-            // The page last, so that where there is one, the others are there too.
-            let files = [
+            Ok(vec![
                 ("fills.csv", csv::csv(&document)),
                 ("fills.json", call::json(&document)?),
                 ("index.json", index),
                 ("fills.html", page::html(&document)),
-            ];
-            call::write(out, &files)?;
-        }
-        match out {
-            _ if self.json => print_json(&document),
-            Some(out) => print(&out.join("fills.html").display().to_string()),
-            None => Ok(()),
-        }
+            ])
+        })
     }
 
     fn plan(&self) -> Result<Plan, CliError> {

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::call::writable;
+use super::call;
 use super::{CliError, print, print_json, printable};
 use crate::grafts::{self, GraftsError, Plan, report};
-use crate::{progress, report::write_atomically, scene};
+use crate::{progress, scene};
 
 /// Arguments of `galpix graft`.
 #[derive(Debug, Args)]
@@ -40,7 +40,7 @@ impl Graft {
             return Err(CliError::unusable(format!("there is no scene `{name}`: `galpix scenes` lists them")));
         };
         if let Some(out) = &self.out {
-            writable(out)?;
+            call::writable(out)?;
         }
         let plan = Plan { frames: self.frames, global_every: self.global, objects_every: self.objects };
         let bar = progress::bar(grafts::WAYS, scene.name());
@@ -51,14 +51,11 @@ impl Graft {
             _ => CliError::unusable(error),
         })?;
         if let Some(out) = &self.out {
-            let json =
-                serde_json::to_string_pretty(&found).map_err(|error| CliError::Failed(error.to_string()))? + "\n";
             for (name, picture) in &pictures.pictures {
                 let path = out.join(format!("{name}.png"));
                 picture.write_png(&path).map_err(|error| CliError::unwritable(&path, &error))?;
             }
-            let path = out.join("graft.json");
-            write_atomically(&path, json.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
+            call::write(out, &[("graft.json", call::json(&found)?)])?;
         }
         if self.json { print_json(&found) } else { print(&format!("{}\n{}", report::table(&found), report::LEGEND)) }
     }

@@ -7,9 +7,8 @@ use clap::Args;
 
 use super::call::{self, command, machine};
 use super::choices::AccelerationChoice;
-use super::demo::sources;
-use super::{CliError, check, print, print_json, printable, printable_lines, say};
-use crate::experiment::{Request, Source};
+use super::{CliError, check, print, printable, printable_lines, say};
+use crate::experiment::Request;
 use crate::layers::report::Document;
 use crate::layers::{self, Plan, Study, csv, page, table};
 use crate::progress;
@@ -43,11 +42,7 @@ impl LayersArguments {
         let started = Instant::now();
         let request = Request { frames: self.frames, ..Request::default() };
         let plan = Plan { request, ways: layers::ways(self.separation) };
-        let open = |name: &String| Source::open(name, &self.acceleration.into()).map_err(CliError::unusable);
-        let sources = match self.sources.as_slice() {
-            [] => sources(),
-            names => names.iter().map(open).collect::<Result<_, _>>()?,
-        };
+        let sources = call::sources(&self.sources, &self.acceleration.into())?;
         sources.iter().try_for_each(|source| check(source, &plan.request))?;
         let out = call::folder(self.out.as_ref(), self.json, "layers")?;
         let mut document = Document {
@@ -88,19 +83,12 @@ impl LayersArguments {
         if !self.json {
             print(table::LEGEND)?;
         }
-        if let Some(out) = &out {
-            // The page last, so that where there is one, the others are there too.
-            let files = [
+        call::publish(out.as_deref(), self.json, &document, || {
+            Ok(vec![
                 ("layers.csv", csv::csv(&document)),
                 ("layers.json", call::json(&document)?),
                 ("layers.html", page::html(&document)),
-            ];
-            call::write(out, &files)?;
-        }
-        match out {
-            _ if self.json => print_json(&document),
-            Some(out) => print(&out.join("layers.html").display().to_string()),
-            None => Ok(()),
-        }
+            ])
+        })
     }
 }

@@ -1,8 +1,5 @@
 //! The study as a page: a table, and each world's pictures.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
 use super::pictures::Pictures;
 use super::report::{Document, SourceReport};
 use crate::report;
@@ -65,18 +62,7 @@ fn table(document: &Document) -> String {
 
 fn section(source: &SourceReport, pictures: &Pictures) -> String {
     let shown = |(name, caption, picture): &(&str, &str, crate::picture::Picture)| {
-        // A picture in memory can be encoded; if it cannot, the page does without it.
-        let bytes = picture.png().unwrap_or_default();
-        format!(
-            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}: {}\" src=\"data:image/png;base64,{}\">\
-             <figcaption>{}</figcaption></figure>",
-            picture.width,
-            picture.height,
-            Text(&source.source),
-            Text(name),
-            STANDARD.encode(bytes),
-            Text(caption)
-        )
+        report::picture(picture, &format!("{}: {name}", source.source), caption)
     };
     let figures: String = pictures.all.iter().map(shown).collect();
     format!(

@@ -2,14 +2,13 @@
 
 use std::borrow::Cow;
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use super::holes::Holes;
 use crate::area::Window;
+use crate::film;
 use crate::picture::Picture;
-use crate::report::text::{Text, count};
+use crate::report::{self, text::count};
 
 /// Cells around the area that are shown with it.
 const MARGIN: usize = 10;
@@ -83,26 +82,13 @@ impl Crop {
     #[must_use]
     pub fn figure(&self, source: &str) -> String {
         let magnified = self.magnified((SHOWN / self.picture.width.max(1)).clamp(1, 8));
-        // A picture in memory can be encoded; if it cannot, the page does without it.
-        let bytes = magnified.png().unwrap_or_default();
-        format!(
-            "<figure><img width=\"{}\" height=\"{}\" alt=\"{}: {}, magnified\" \
-             src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>",
-            magnified.width,
-            magnified.height,
-            Text(source),
-            Text(&self.name),
-            STANDARD.encode(bytes),
-            Text(&self.name)
-        )
+        report::picture(&magnified, &format!("{source}: {}, magnified", self.name), &self.name)
     }
 
     /// The part with each pixel as a square of `times` pixels.
     #[must_use]
     pub fn magnified(&self, times: usize) -> Picture {
-        let (width, height) = (self.picture.width * times, self.picture.height * times);
-        let pixel = |at: usize| self.picture.at(at % width / times, at / width / times);
-        Picture { width, height, pixels: (0..width * height).map(pixel).collect() }
+        film::magnified(&self.picture, times)
     }
 }
 

@@ -23,11 +23,7 @@ const LARGE: usize = 400_000;
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn of(source: &Source, plan: &Plan) -> Result<Vec<Option<Time>>, ExperimentError> {
     let update = source.update();
-    if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
-        timed::<Shaded>(source, plan)
-    } else {
-        timed::<Full>(source, plan)
-    }
+    if experiment::needs_luminosity(&update) { timed::<Shaded>(source, plan) } else { timed::<Full>(source, plan) }
 }
 
 fn timed<L: Layout + 'static>(source: &Source, plan: &Plan) -> Result<Vec<Option<Time>>, ExperimentError> {

@@ -30,7 +30,7 @@ pub type WayTime = (Option<Time>, Option<f64>);
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
     let update = source.update();
-    if update.samples.iter().any(|sample| sample.luminosity_rate != 0.0) {
+    if experiment::needs_luminosity(&update) {
         timed::<Shaded>(source, &update, plan, ways)
     } else {
         timed::<Full>(source, &update, plan, ways)

@@ -21,7 +21,7 @@ mod story;
 pub(crate) mod style;
 pub(crate) mod text;
 
-pub use page::{document, facts, html, notes, source_head};
+pub use page::{document, facts, html, notes, picture, source_head};
 pub use save::write_atomically;
 
 /// Everything that a report says. All text is plain; it is escaped where it meets HTML.

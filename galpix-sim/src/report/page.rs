@@ -1,10 +1,14 @@
 //! The page around the stories.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::overview::overview;
 use super::story::section;
 use super::style::sheet;
 use super::text::Text;
 use super::{Report, Story};
+use crate::picture::Picture;
 
 /// The report as one HTML document that needs nothing but itself, in a light and a dark scheme.
 #[must_use]
@@ -41,6 +45,22 @@ pub fn facts(version: &str, command: &str, machine: &str, seconds: f64) -> Vec<(
     [("Version", version), ("Command", command), ("Machine", machine), ("Took", took.as_str())]
         .map(|(name, value)| (name.to_owned(), value.to_owned()))
         .to_vec()
+}
+
+/// A picture with a caption; what it shows and the caption are plain text.
+#[must_use]
+pub fn picture(picture: &Picture, shows: &str, caption: &str) -> String {
+    // A picture in memory can be encoded; if it cannot, the page does without it.
+    let bytes = picture.png().unwrap_or_default();
+    format!(
+        "<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">\
+         <figcaption>{}</figcaption></figure>",
+        picture.width,
+        picture.height,
+        Text(shows),
+        STANDARD.encode(bytes),
+        Text(caption)
+    )
 }
 
 /// A section of remarks, which are plain text.

@@ -111,6 +111,21 @@ pub struct Step {
     pub results: Vec<(i32, i32, i32, i32, u32)>,
 }
 
+/// How whole frames are made.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Making {
+    /// The rounding's name.
+    pub rounding: String,
+    /// The rung's name.
+    pub rung: String,
+    /// Rounds of bullet filling.
+    pub reach: u32,
+    /// Of the edge map, in units of the depth's last bit.
+    pub threshold: u32,
+    /// The frame counter at first.
+    pub frame: u32,
+}
+
 /// What all cases over a map have.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Setting {
@@ -188,16 +203,9 @@ pub struct Frames {
     /// Widths, lanes, places, size.
     #[serde(flatten)]
     pub setting: Setting,
-    /// The rounding's name.
-    pub rounding: String,
-    /// The rung's name.
-    pub rung: String,
-    /// Rounds of bullet filling.
-    pub reach: u32,
-    /// Of the edge map, in units of the depth's last bit.
-    pub threshold: u32,
-    /// The frame counter of `front`.
-    pub frame: u32,
+    /// How they are made.
+    #[serde(flatten)]
+    pub making: Making,
     /// The first map.
     pub front: Vec<u32>,
     /// The frames after it.

@@ -2,8 +2,7 @@
 
 use galpix_core::budget::Bits;
 use galpix_core::edge;
-use galpix_core::fill::Rung;
-use galpix_core::frame::{Controller, Scratch, Settings};
+use galpix_core::frame::{Controller, Scratch};
 use galpix_core::galpixel::{Budget as _, Chosen};
 use galpix_core::galpixmap::Galpixmap;
 use galpix_core::grid::Grid;
@@ -12,7 +11,7 @@ use galpix_core::layout::Layout;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::case::{Content, Counts, Setting};
+use super::case::{Content, Counts, Making, Setting};
 use super::maps::{Picture, Random, words};
 use super::run::{Lent, Plan, RunError, planes, setting};
 
@@ -22,16 +21,9 @@ pub struct Layers {
     /// Widths, lanes, places, size.
     #[serde(flatten)]
     pub setting: Setting,
-    /// The rounding's name.
-    pub rounding: String,
-    /// The rung's name.
-    pub rung: String,
-    /// Rounds of bullet filling.
-    pub reach: u32,
-    /// Of the edge maps, in units of the depth's last bit.
-    pub threshold: u32,
-    /// The frame counter at first.
-    pub frame: u32,
+    /// How all layers are made.
+    #[serde(flatten)]
+    pub making: Making,
     /// What each layer is and holds at first, the base first.
     pub layers: Vec<LayerAtFirst>,
     /// What is shown at first.
@@ -221,14 +213,9 @@ pub fn layered<L: Layout, const HIDDEN: usize>(
             displacements: layers.displacements_mut(layer).map(|words| words.to_vec()).unwrap_or_default(),
         })
         .collect();
-    let Settings { rounding, rung, edge_threshold, reach, .. } = plan.settings;
     Ok(Content::Layers(Layers {
         setting: setting::<L>(bits, &record, plan.grid),
-        rounding: rounding.name().to_owned(),
-        rung: rung.name().to_owned(),
-        reach,
-        threshold: if rung >= Rung::Bullet { edge_threshold } else { 0 },
-        frame: plan.frame,
+        making: plan.making(),
         layers: at_first,
         first,
         frames,

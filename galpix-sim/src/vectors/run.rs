@@ -22,7 +22,9 @@ use galpix_core::resolve::settle;
 use galpix_core::rounding::Rounding;
 use galpix_core::tally::Tally;
 
-use super::case::{ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Resolve, Setting, Step};
+use super::case::{
+    ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Making, Resolve, Setting, Step,
+};
 use super::disocclusion::{Shown, uncovered};
 use super::hash;
 use super::layered::{Hidden, layered};
@@ -52,6 +54,20 @@ pub struct Plan {
     pub frame: u32,
     /// Frames that are made of it.
     pub frames: u32,
+}
+
+impl Plan {
+    /// How its frames are made. Rungs that know no surfaces look at no edge map.
+    pub fn making(&self) -> Making {
+        let Settings { rounding, rung, edge_threshold, reach, .. } = self.settings;
+        Making {
+            rounding: rounding.name().to_owned(),
+            rung: rung.name().to_owned(),
+            reach,
+            threshold: if rung >= Rung::Bullet { edge_threshold } else { 0 },
+            frame: self.frame,
+        }
+    }
 }
 
 /// How a frame is painted.
@@ -269,14 +285,9 @@ fn frames<L: Layout>(bits: Bits, plan: &Plan, random: &mut Random) -> Result<Con
             FrameAfter { sha256: hash::frame(&map), counts, map }
         })
         .collect();
-    let Settings { rounding, rung, edge_threshold, reach, .. } = plan.settings;
     Ok(Content::Frame(Frames {
         setting: setting::<L>(bits, &record, plan.grid),
-        rounding: rounding.name().to_owned(),
-        rung: rung.name().to_owned(),
-        reach,
-        threshold: if rung >= Rung::Bullet { edge_threshold } else { 0 },
-        frame: plan.frame,
+        making: plan.making(),
         front: front_words,
         frames,
     }))
