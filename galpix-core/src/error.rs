@@ -51,9 +51,12 @@ pub enum BudgetError {
         most: u32,
     },
     /// The layout has an acceleration and no velocity, or a depth motion and no depth.
-    LaneWithoutItsBase,
-    /// A lane was chosen that the layout does not have.
-    NoSuchLane,
+    FieldWithoutItsBase,
+    /// A colour channel has no bit, or more than 8.
+    ChannelBits {
+        /// Bits asked for.
+        bits: u32,
+    },
 }
 
 impl fmt::Display for BudgetError {
@@ -91,14 +94,12 @@ impl fmt::Display for BudgetError {
             ),
             Self::RecordTooLong { bits, most } => write!(
                 f,
-                "a galpixel of {bits} bits is more than the {most} that the engine carries: leave lanes out or shave bits off"
+                "a galpixel of {bits} bits is more than the {most} that the engine carries: leave fields out or shave bits off"
             ),
-            Self::LaneWithoutItsBase => f.write_str(
-                "acceleration needs velocity, and depth motion needs depth and velocity: add the missing lane",
+            Self::FieldWithoutItsBase => f.write_str(
+                "acceleration needs velocity, and depth motion needs depth and velocity: add what is missing",
             ),
-            Self::NoSuchLane => {
-                f.write_str("a lane was chosen that the layout does not have: choose among its own, or another layout")
-            }
+            Self::ChannelBits { bits } => write!(f, "a colour channel of {bits} bits cannot be stored: give it 1 to 8"),
         }
     }
 }
@@ -118,7 +119,7 @@ pub enum SetupError {
         /// Words lent.
         have: usize,
     },
-    /// The map, wings included, has no cell or more than can be addressed.
+    /// The map, margin included, has no cell or more than can be addressed.
     Size {
         /// Columns.
         width: u32,
@@ -139,12 +140,12 @@ impl fmt::Display for SetupError {
             }
             Self::Size { width, height } => write!(
                 f,
-                "a map of {width}x{height} cells cannot be laid out: both sides must be 1 to 32768, wings included, and \
+                "a map of {width}x{height} cells cannot be laid out: both sides must be 1 to 32768, margin included, and \
                  the cells at most 2^28"
             ),
             Self::GridsDiffer => f.write_str("the two maps have different grids: lay both over the same one"),
             Self::NoTag => f.write_str(
-                "the layout has no tag, so that objects cannot be told apart: choose one with a tag lane, as `Tagged`",
+                "the layout has no tag, so that objects cannot be told apart: choose one with tag bits, as `Layout::TAGGED`",
             ),
         }
     }

@@ -27,7 +27,7 @@
 //! use galpix_core::frame::{Controller, Scratch, Settings};
 //! use galpix_core::galpixel::{Galpixel, Profile, Static};
 //! use galpix_core::galpixmap::Galpixmap;
-//! use galpix_core::grid::{Grid, Wings};
+//! use galpix_core::grid::{Grid, Margin};
 //! use galpix_core::layout::Velocity565;
 //!
 //! /// A panel of 64 pixels, recognition in 8 frames, an update every 16.
@@ -37,7 +37,7 @@
 //! }
 //!
 //! let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
-//! let grid = Grid::new(64, 4, Wings::NONE, &mut rows)?;
+//! let grid = Grid::new(64, 4, Margin::NONE, &mut rows)?;
 //! let mut front = Galpixmap::<Velocity565, _>::new(grid, Static::<Panel>::new(), &mut front)?;
 //! let back = Galpixmap::new(grid, Static::<Panel>::new(), &mut back)?;
 //!
@@ -56,29 +56,65 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-pub mod budget;
-pub mod colour;
-pub mod constant;
+mod error;
+mod fast;
+mod format;
+mod frame;
+mod map;
+mod output;
+
 pub mod ddoc;
 pub mod disocclusion;
-pub mod edge;
-pub mod error;
-pub mod fill;
-pub mod frame;
-pub mod galpixel;
-pub mod galpixmap;
-pub mod graft;
-pub mod grid;
 pub mod inpaint;
 pub mod layers;
-pub mod layout;
 pub mod objects;
-pub mod overlay;
-pub mod propagate;
-pub mod record;
-pub mod resolve;
-pub mod rolling;
-pub mod rounding;
-pub mod scan_out;
-pub mod sweep;
-pub mod tally;
+
+/// Formats in full: components of a budget, channels of a colour, fields and arithmetic of a record.
+pub mod record {
+    pub use crate::format::budget::{Component, Shave, WIDEST_FIELD};
+    pub use crate::format::colour::{Channel, luminosity};
+    pub use crate::format::record::{Field, MAX_WORDS, Record, Scale};
+}
+
+/// The stages of a frame one by one, and their arithmetic.
+pub mod stages {
+    pub use crate::frame::edge::{laplacian, mark, on_edge, threshold_for_depth, threshold_for_speed, words};
+    pub use crate::frame::fill::{FILLED, fill};
+    pub use crate::frame::resolve::{Candidate, NO_WINNER, nearer, sweep};
+    pub use crate::frame::step::{clamp_velocity, snap, step_position, step_velocity};
+}
+
+/// Rows of colour for a display.
+pub mod scan_out {
+    pub use crate::output::scan_out::{Bare, Over, row};
+    #[cfg(feature = "embedded-graphics")]
+    pub use crate::output::scan_out::{PanelColour, View};
+}
+
+/// Cells pinned over the picture.
+pub mod overlay {
+    #[cfg(feature = "embedded-graphics")]
+    pub use crate::output::overlay::Canvas;
+    pub use crate::output::overlay::{Overlay, row};
+}
+
+/// One map in little more than half the memory.
+pub mod rolling {
+    pub use crate::fast::rolling::{Rolling, reach, rows};
+}
+
+pub use error::{BudgetError, SetupError};
+pub use fixed;
+pub use format::budget::{Bits, Demand};
+pub use format::colour::Colour;
+pub use format::layout::Layout;
+pub use format::record::Record;
+pub use format::rounding::Rounding;
+pub use format::{Dynamic, Format, Profile, Static};
+pub use frame::fill::FillMode;
+pub use frame::tally::Tally;
+pub use frame::{Controller, Inpainting, Scratch, Settings};
+pub use map::Galpixmap;
+pub use map::galpixel::{Class, Galpixel};
+pub use map::grid::{Grid, Margin};
+pub use objects::graft::{Grafted, graft};

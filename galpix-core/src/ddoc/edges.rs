@@ -7,8 +7,8 @@
 use super::direction::{self, Moments};
 use super::splat::Splat;
 use super::{FRACTION_BITS, Settings, Tally};
-use crate::edge::laplacian;
-use crate::grid::Grid;
+use crate::frame::edge::laplacian;
+use crate::map::grid::Grid;
 
 /// What is seen around a cell of an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -10,8 +10,8 @@
 
 use super::direction;
 use super::{FRACTION_BITS, ONE, Settings, Tally};
-use crate::grid::Grid;
 use crate::inpaint::root;
+use crate::map::grid::Grid;
 
 /// One cell of an edge, and what it distorts around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

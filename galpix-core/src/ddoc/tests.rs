@@ -6,7 +6,7 @@ use std::vec::Vec;
 use super::direction::{Moments, unit};
 use super::splat::Splat;
 use super::*;
-use crate::grid::Wings;
+use crate::map::grid::Margin;
 
 const NEAR: u32 = 100_000;
 const FAR: u32 = 900_000;
@@ -25,7 +25,7 @@ fn made(side: u32, settings: &Settings, depth: impl Fn(i32, i32) -> u32) -> Made
     let depths: Vec<u32> = cells().map(|(x, y)| depth(x, y)).collect();
     let (mut rows, mut owners) = (vec![0; side as usize], vec![7; depths.len()]);
     let mut splats = vec![Splat::default(); depths.len()];
-    let grid = Grid::new(side, side, Wings::NONE, &mut rows).unwrap();
+    let grid = Grid::new(side, side, Margin::NONE, &mut rows).unwrap();
     let (map, tally) = DistortionMap::new(grid, &depths, settings, &mut owners, &mut splats).unwrap();
     let moved = cells().map(|(x, y)| map.displacement([x * ONE, y * ONE], FAR)).collect();
     splats.truncate(tally.splats as usize);
@@ -150,7 +150,7 @@ fn behind_a_straight_edge_nothing_overtakes_and_nothing_near_moves() {
     }
     let made = made(80, &settings(8), |x, _| if x < 40 { NEAR } else { FAR });
     let mut rows = vec![0; 80];
-    let grid = Grid::new(80, 80, Wings::NONE, &mut rows).unwrap();
+    let grid = Grid::new(80, 80, Margin::NONE, &mut rows).unwrap();
     let map = DistortionMap { grid, owners: &made.owners, splats: &made.splats, asymmetry: 16 };
     for x in 30..50 {
         assert_eq!(map.displaced([x * ONE, 40 * ONE], NEAR), [x * ONE, 40 * ONE], "what is near stays");
@@ -302,7 +302,7 @@ fn a_plane_at_any_slant_is_not_distorted() {
 #[test]
 fn memory_that_is_too_short_is_refused_or_counted() {
     let mut rows = [0; 16];
-    let grid = Grid::new(16, 16, Wings::NONE, &mut rows).unwrap();
+    let grid = Grid::new(16, 16, Margin::NONE, &mut rows).unwrap();
     let depths: [u32; 256] = core::array::from_fn(|cell| if cell % 16 < 8 { NEAR } else { FAR });
     let (mut owners, mut splats) = ([0; 256], [Splat::default(); 5]);
     let short = |plane: &'static str, have: usize| SetupError::TooShort { plane, need: 256, have };
@@ -338,7 +338,7 @@ fn nothing_overflows_and_the_same_comes_out_again() {
         let (one, other) = (made(40, &settings, depth), made(40, &settings, depth));
         assert!(one.owners == other.owners && one.splats == other.splats && one.moved == other.moved);
         let mut rows = vec![0; 40];
-        let grid = Grid::new(40, 40, Wings::NONE, &mut rows).unwrap();
+        let grid = Grid::new(40, 40, Margin::NONE, &mut rows).unwrap();
         let map =
             DistortionMap { grid, owners: &one.owners, splats: &one.splats, asymmetry: settings.clamped().asymmetry };
         for _ in 0..2000 {

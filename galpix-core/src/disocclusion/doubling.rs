@@ -6,7 +6,7 @@
 //! reads all cells as they were before it.
 
 use super::extents::{DOWNWARDS, EXTENTS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, larger};
-use crate::grid::Grid;
+use crate::map::grid::Grid;
 
 /// A scan: the extent that moves, and the step of one cell against its way.
 #[derive(Clone, Copy)]

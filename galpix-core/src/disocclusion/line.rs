@@ -6,16 +6,19 @@
 use super::extents::{DOWNWARDS, EXTENTS, UPWARDS, extent, shorter, shut};
 use super::mark::Marker;
 use super::{Reach, Tally, spread};
-use crate::galpixel::Budget;
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
+use crate::format::Format;
+use crate::map::Galpixmap;
 
 /// The mask of the cells that [`super::map`] covers: cell `c` in bit `c % 32` of word `c / 32`, as in the edge map.
 ///
-/// `mask` must have [`crate::edge::words`] words, and `line` one for each column; what they held does not matter. Cells that are in
+/// `mask` must have [`crate::frame::edge::words`] words, and `line` one for each column; what they held does not matter. Cells that are in
 /// none of them are not covered.
-pub fn cover<L: Layout, B: Budget<L>>(
-    front: &Galpixmap<'_, L, B>,
+pub fn cover<F: Format>(front: &Galpixmap<'_, F>, line: &mut [u32], mask: &mut [u32], reach: &Reach) -> Tally {
+    F::disocclusion_cover(front, line, mask, reach)
+}
+
+pub(crate) fn make_cover<F: Format>(
+    front: &Galpixmap<'_, F>,
     line: &mut [u32],
     mask: &mut [u32],
     reach: &Reach,
@@ -38,14 +41,14 @@ pub fn cover<L: Layout, B: Budget<L>>(
 }
 
 /// A pass over all rows.
-struct Pass<'m, 'p, L, B> {
-    marker: Marker<'m, 'p, L, B>,
+struct Pass<'m, 'p, F> {
+    marker: Marker<'m, 'p, F>,
     line: &'m mut [u32],
     mask: &'m mut [u32],
     covered: u32,
 }
 
-impl<L: Layout, B: Budget<L>> Pass<'_, '_, L, B> {
+impl<F: Format> Pass<'_, '_, F> {
     /// The next row of a pass on the way `WAY`: what the line before hands on is in the place of the extent `AGAINST` it.
     fn row<const WAY: u32, const AGAINST: u32>(&mut self, y: u32) {
         let Some(start) = self.marker.begin::<WAY>(y, self.line) else { return };

@@ -8,11 +8,11 @@ use core::ops::Range;
 use super::extents::{EXTENTS, ONLY_ITSELF, larger};
 use super::pair::{Body, Rule, Uncovered};
 use super::{Border, Reach, Tally};
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::record::{Extract, Field, Record};
-use crate::sweep::VECTORS;
+use crate::fast::VECTORS;
+use crate::format::Format;
+use crate::format::record::{Extract, Field, Record};
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// No pass whose extents stay in the rows.
 pub(crate) const NO_PASS: u32 = u32::MAX;
@@ -34,7 +34,7 @@ struct Lanes<'l> {
 impl<'l> Lanes<'l> {
     /// The cells from `cell` on, if there are as many in the map.
     #[inline(always)]
-    fn at<L: Layout, B: Budget<L>, const ALONG: usize>(front: &'l Galpixmap<'_, L, B>, cell: u32) -> Option<Self> {
+    fn at<F: Format, const ALONG: usize>(front: &'l Galpixmap<'_, F>, cell: u32) -> Option<Self> {
         let record = front.record();
         let word = |word: usize| front.planes()[word].get(cell as usize..)?.first_chunk();
         let field = |field: Field| {
@@ -52,9 +52,9 @@ impl<'l> Lanes<'l> {
 
     /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it, above [`key_shift`] bits that say nothing.
     #[inline(always)]
-    fn key<L: Layout, B: Budget<L>>(&self, record: &Record, lane: usize) -> u32 {
+    fn key<F: Format>(&self, record: &Record, lane: usize) -> u32 {
         let ([depth, spill], lane) = (self.depth, lane & (RUN - 1));
-        if key_shift::<L, B>(record).is_some() {
+        if key_shift::<F>(record).is_some() {
             return depth[lane];
         }
         let class = record.class().extract().unsigned(self.class[lane], self.class[lane]);
@@ -64,8 +64,8 @@ impl<'l> Lanes<'l> {
 
 /// The lowest bit of the key in its word, if it is the top of one.
 #[inline(always)]
-fn key_shift<L: Layout, B: Budget<L>>(record: &Record) -> Option<u32> {
-    if B::FIXED { record.key_field().and_then(Field::at_top) } else { None }
+fn key_shift<F: Format>(record: &Record) -> Option<u32> {
+    if F::FIXED { record.key_field().and_then(Field::at_top) } else { None }
 }
 
 /// By how much keys may differ in any case that are less than `separation` apart, and the bits that then are 0 once this is added; `None` if all pairs are
@@ -122,7 +122,7 @@ impl Waiting {
 
     /// Brings into the cache what [`Body::read`] reads: of the first cells, which are in the row from cell `one` on, and of the second ones, in that from `other` on.
     #[inline(always)]
-    fn bring<L: Layout, B: Budget<L>>(&self, front: &Galpixmap<'_, L, B>, one: u32, other: u32) {
+    fn bring<F: Format>(&self, front: &Galpixmap<'_, F>, one: u32, other: u32) {
         if !VECTORS {
             return;
         }
@@ -144,8 +144,8 @@ impl Waiting {
 }
 
 /// What is done with each pair of a map.
-pub(crate) struct Marker<'m, 'p, L, B> {
-    front: &'m Galpixmap<'p, L, B>,
+pub(crate) struct Marker<'m, 'p, F> {
+    front: &'m Galpixmap<'p, F>,
     rule: Rule,
     border: Border,
     key_limit: Option<(u32, u32)>,
@@ -158,12 +158,12 @@ pub(crate) struct Marker<'m, 'p, L, B> {
     pub tally: Tally,
 }
 
-impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
-    pub fn new(front: &'m Galpixmap<'p, L, B>, reach: &Reach) -> Self {
+impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
+    pub fn new(front: &'m Galpixmap<'p, F>, reach: &Reach) -> Self {
         let rule = Rule::new(front.record(), reach);
         let beyond = |limit| if limit == 0 { u32::MAX } else { 0u32.wrapping_sub((limit as u32) << 1) };
         let limits = rule.bounds.map(|bound| bound.together().map(|limit| (limit, beyond(limit))));
-        let key_limit = key_limit(rule.separation, key_shift::<L, B>(front.record()).unwrap_or(0));
+        let key_limit = key_limit(rule.separation, key_shift::<F>(front.record()).unwrap_or(0));
         let (border, tally) = (reach.border, Tally::default());
         Self { front, rule, border, key_limit, empties: true, limits, marked: u32::MAX, tally }
     }
@@ -253,9 +253,9 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
     /// `one` and from `other` on, of which the first ones may be empty only if `empties`; all are flagged where the map ends before the run does.
     #[inline(always)]
     fn compare<const ALONG: usize>(&self, one: u32, other: u32, empties: bool, flags: &mut [u32; RUN]) -> Seen {
-        let one = Lanes::at::<L, B, ALONG>(self.front, one);
+        let one = Lanes::at::<F, ALONG>(self.front, one);
         let (Some(one), Some(other), Some((limit, beyond))) =
-            (one, Lanes::at::<L, B, ALONG>(self.front, other), self.key_limit)
+            (one, Lanes::at::<F, ALONG>(self.front, other), self.key_limit)
         else {
             *flags = [1; RUN];
             return Seen { flags: true, empties: true };
@@ -265,13 +265,13 @@ impl<'m, 'p, L: Layout, B: Budget<L>> Marker<'m, 'p, L, B> {
         let (v, a) = (record.velocity(ALONG).extract(), record.acceleration(ALONG).extract());
         let (mut any, mut twos) = (0, 0);
         for (lane, flag) in flags.iter_mut().enumerate() {
-            let (key, other_key) = (one.key::<L, B>(record, lane), other.key::<L, B>(record, lane));
+            let (key, other_key) = (one.key::<F>(record, lane), other.key::<F>(record, lane));
             let mut look = other_key.wrapping_sub(key).wrapping_add(limit) & beyond;
-            if L::LANES.velocity {
+            if record.layout().velocity {
                 let (one, other) = (signed(v, one.v, lane), signed(v, other.v, lane));
                 look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
             }
-            if L::LANES.acceleration {
+            if record.layout().acceleration {
                 let (one, other) = (signed(a, one.a, lane), signed(a, other.a, lane));
                 look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
             }

@@ -3,10 +3,10 @@
 use super::Reach;
 use super::extents::{DOWNWARDS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, shut};
 use super::reach::{Bound, Motion};
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::record::Record;
+use crate::format::Format;
+use crate::format::record::Record;
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// The key of what nothing is behind: empty cells, and what lies beyond the border.
 const FARTHEST: i32 = i32::MAX;
@@ -32,19 +32,19 @@ impl Body {
 
     /// What is in a cell.
     #[inline(always)]
-    pub fn read<L: Layout, B: Budget<L>>(front: &Galpixmap<'_, L, B>, cell: u32) -> Self {
+    pub fn read<F: Format>(front: &Galpixmap<'_, F>, cell: u32) -> Self {
         let Some(key) = front.key_at(cell) else { return Self::NOTHING };
         if front.class_of(key) == Class::Empty as u32 {
             return Self::NOTHING;
         }
         // Words that hold nothing of this are not read: they would not be in the cache.
-        Self { key: key as i32, motion: [motion::<L, B, 0>(front, cell), motion::<L, B, 1>(front, cell)] }
+        Self { key: key as i32, motion: [motion::<F, 0>(front, cell), motion::<F, 1>(front, cell)] }
     }
 }
 
 /// The motion of what is in a cell along a component.
 #[inline(always)]
-fn motion<L: Layout, B: Budget<L>, const ALONG: usize>(front: &Galpixmap<'_, L, B>, cell: u32) -> Motion {
+fn motion<F: Format, const ALONG: usize>(front: &Galpixmap<'_, F>, cell: u32) -> Motion {
     let record = front.record();
     let acceleration = front.signed(record.acceleration(ALONG), cell);
     Motion {

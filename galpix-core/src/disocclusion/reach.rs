@@ -1,6 +1,6 @@
 //! How far one galpixel gets from another within some frames, at most and in whole cells.
 //!
-//! Both make the steps of [`crate::propagate`] by the same thresholds. In a step the one gets ahead of the other by
+//! Both make the steps of [`crate::frame::step`] by the same thresholds. In a step the one gets ahead of the other by
 //! `floor((s + t) / M) - floor((s' + t) / M) <= ceil((s - s') / M) <= (s - s' + slack) / M` units of the position, whatever the threshold `t`, where
 //! `M = 2^down` and `slack = M - 1`; without an acceleration `s - s'` is even, and `slack = M - 2`. So the sum over the frames of
 //! `s - s' + slack`, divided by `M` and rounded down, bounds what it gets ahead; with the places in the cells, rounded up to whole
@@ -9,8 +9,8 @@
 //! The sums are those of a parabola, until a velocity saturates. Nothing is multiplied on machines without vector registers: the frames
 //! are 8 bits, and their products sums of shifts.
 
-use crate::record::Scale;
-use crate::sweep::VECTORS;
+use crate::fast::VECTORS;
+use crate::format::record::Scale;
 
 /// The motion of a galpixel along one component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -167,7 +167,7 @@ impl Bound {
     #[cold]
     #[inline(never)]
     fn most_in_steps(&self, mut one: Motion, mut other: Motion, slack: i64) -> i64 {
-        use crate::propagate::{clamp_velocity, step_velocity};
+        use crate::frame::step::{clamp_velocity, step_velocity};
         // Accelerations are in units of the velocity already.
         let scale = Scale { acceleration_up: 0, ..self.scale };
         let (mut sum, mut most) = (0i64, i64::MIN);

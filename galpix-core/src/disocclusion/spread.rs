@@ -7,8 +7,8 @@
 use super::extents::{
     DOWNWARDS, EXTENTS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, extent, handed_on, shorter, taken,
 };
-use crate::grid::Grid;
-use crate::sweep::VECTORS;
+use crate::fast::VECTORS;
+use crate::map::grid::Grid;
 
 /// Cells that are passed by at once where nothing is uncovered.
 const BLOCK: usize = 16;

@@ -3,57 +3,111 @@
 use core::marker::PhantomData;
 
 use super::mean::tie;
+use super::metamer::{self, Recipe};
 use super::paint::{Moving, Tint};
-use super::push_pull::{Picture, RUN, Value, each};
-use super::pyramid::{DEPTH_BITS, Known};
+use super::push_pull::{Picture, RUN, Value, each, sparse};
+use super::pyramid::{DEPTH_BITS, Known, Pyramid};
+use super::tone::Tone;
 use super::validity::FULL;
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::record::Words;
+use crate::error::SetupError;
+use crate::format::Format;
+use crate::format::colour::Colour;
+use crate::format::record::Words;
+use crate::frame::Inpainting;
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// Cells that are looked at once.
 pub(super) const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
-pub trait OfGalpixel<L: Layout>: Value {
-    /// What a cell of this colour holds.
-    fn of(colour: u32, cell: u32) -> Self;
+pub trait OfGalpixel: Value {
+    /// Returns what a cell of this colour holds.
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self;
 
-    /// The words of a hole that held `words` and gets this.
-    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words;
+    /// Returns the words of a hole that held `words` and gets this.
+    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words;
+}
+
+/// What push-pull fills in.
+pub trait Filling: OfGalpixel {
+    /// Fills the holes of a map, whose depth is the one that they are to be filled at; how many were filled.
+    fn push_pull<F: Format>(
+        map: &mut Galpixmap<'_, F>,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, Self>,
+    ) -> u32;
 }
 
 /// The colour alone: the motion stays the one that the fill ladder gave.
-impl<L: Layout> OfGalpixel<L> for Tint {
+impl OfGalpixel for Tint {
     #[inline(always)]
-    fn of(colour: u32, _: u32) -> Self {
-        Self::of::<L::Colour>(colour)
+    fn of(format: &Colour, colour: u32, _: u32) -> Self {
+        Self::of(format, colour)
     }
 
     #[inline(always)]
-    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, mut words: Words) -> Words {
-        map.record().colour().set(&mut words, self.colour::<L::Colour>());
+    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, mut words: Words) -> Words {
+        map.record().colour().set(&mut words, self.colour(map.record().colour_format()));
         words
     }
 }
 
+impl Filling for Tint {
+    fn push_pull<F: Format>(
+        map: &mut Galpixmap<'_, F>,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, Self>,
+    ) -> u32 {
+        F::push_pull_tint(map, inpainting, pyramid)
+    }
+}
+
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
-impl<L: Layout> OfGalpixel<L> for Moving {
+impl OfGalpixel for Moving {
     #[inline(always)]
-    fn of(colour: u32, cell: u32) -> Self {
-        Self { tint: Tint::of::<L::Colour>(colour), source: cell }
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { tint: Tint::of(format, colour), source: cell }
     }
 
     #[inline(always)]
-    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
-        OfGalpixel::<L>::put_into(self.tint, map, moving_as(map, self.source, words))
+    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words {
+        OfGalpixel::put_into(self.tint, map, moving_as(map, self.source, words))
     }
+}
+
+impl Filling for Moving {
+    fn push_pull<F: Format>(
+        map: &mut Galpixmap<'_, F>,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, Self>,
+    ) -> u32 {
+        F::push_pull_moving(map, inpainting, pyramid)
+    }
+}
+
+/// Fills the holes of a map by push-pull.
+pub(crate) fn push_pull<F: Format, V: OfGalpixel>(
+    map: &mut Galpixmap<'_, F>,
+    inpainting: &Inpainting<'_>,
+    pyramid: &mut Pyramid<'_, V>,
+) -> u32 {
+    sparse(&mut Uncovered::<F, V>::new(map, inpainting.mask), pyramid, &inpainting.rule)
+}
+
+/// Fills the holes of a map by metamers.
+pub(crate) fn metamers<F: Format>(
+    map: &mut Galpixmap<'_, F>,
+    inpainting: &Inpainting<'_>,
+    scratch: &mut metamer::Scratch<'_>,
+    recipe: &Recipe,
+) -> Result<u32, SetupError> {
+    metamer::sparse(&mut Uncovered::<F, Tone>::new(map, inpainting.mask), scratch, recipe)
 }
 
 /// The words of a galpixel with class and depth of the hole that held `words`.
 #[inline(always)]
-pub(super) fn moving_as<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, source: u32, words: Words) -> Words {
+pub(super) fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: Words) -> Words {
     let record = map.record();
     let mut moving = map.words_at(source).unwrap_or(words);
     for field in [record.class(), record.depth()] {
@@ -64,17 +118,17 @@ pub(super) fn moving_as<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, sour
 
 /// A galpixmap whose cells of class just unobscured are its holes.
 #[derive(Debug)]
-pub struct Uncovered<'m, 'p, L, B, V> {
-    pub(super) map: &'m mut Galpixmap<'p, L, B>,
+pub struct Uncovered<'m, 'p, F, V> {
+    pub(super) map: &'m mut Galpixmap<'p, F>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
     value: PhantomData<V>,
 }
 
-impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, V> {
+impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
     /// The holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for all
     /// of them, and beyond the end of one no hole is filled.
-    pub const fn new(map: &'m mut Galpixmap<'p, L, B>, mask: &'m [u32]) -> Self {
+    pub const fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
         Self { map, mask, value: PhantomData }
     }
 
@@ -88,7 +142,11 @@ impl<'m, 'p, L: Layout, B: Budget<L>, V: OfGalpixel<L>> Uncovered<'m, 'p, L, B, 
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
         if class == Class::Galpixel as u32 {
-            Known { validity: FULL, depth, value: V::of(self.map.colour(cell), cell) }
+            Known {
+                validity: FULL,
+                depth,
+                value: V::of(self.map.record().colour_format(), self.map.colour(cell), cell),
+            }
         } else {
             Known { validity: 0, depth, value: V::default() }
         }
@@ -107,7 +165,7 @@ pub(super) fn pyramid_depth(depth: u32, bits: u32) -> u32 {
     depth >> bits.saturating_sub(DEPTH_BITS)
 }
 
-impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L, B, V> {
+impl<F: Format, V: OfGalpixel> Picture for Uncovered<'_, '_, F, V> {
     type Value = V;
 
     fn size(&self) -> [u32; 2] {
@@ -174,7 +232,7 @@ impl<L: Layout, B: Budget<L>, V: OfGalpixel<L>> Picture for Uncovered<'_, '_, L,
             let mut values = [V::default(); CELLS];
             let colours = self.map.colours(cell as usize..cell as usize + CELLS);
             for ((value, colour), cell) in values.iter_mut().zip(colours).zip(cell..) {
-                *value = V::of(colour, cell);
+                *value = V::of(self.map.record().colour_format(), colour, cell);
             }
             values
         };

@@ -2,7 +2,7 @@
 
 use super::mean::divided3;
 use super::push_pull::{Value, each};
-use crate::colour::Colour;
+use crate::format::colour::Colour;
 
 /// Bits of a channel in a pyramid: eight, and two of a fraction.
 const CHANNEL_BITS: u32 = 10;
@@ -21,9 +21,8 @@ impl Tint {
     /// The channels of a stored colour, each moved up to ten bits.
     #[inline(always)]
     #[must_use]
-    pub fn of<C: Colour>(colour: u32) -> Self {
-        const { assert!(C::CHANNELS.len() <= 3, "a colour has at most three channels here") }
-        Self(C::CHANNELS.iter().fold(0, |tint, channel| {
+    pub fn of(format: &Colour, colour: u32) -> Self {
+        Self(format.channels().fold(0, |tint, channel| {
             let level = colour >> channel.shift & ((1 << channel.bits) - 1);
             tint << CHANNEL_BITS | level << (CHANNEL_BITS - channel.bits)
         }))
@@ -32,9 +31,9 @@ impl Tint {
     /// The stored colour: each channel to the nearest, halves upwards.
     #[inline(always)]
     #[must_use]
-    pub fn colour<C: Colour>(self) -> u32 {
+    pub fn colour(self, format: &Colour) -> u32 {
         let mut tint = self.0;
-        C::CHANNELS.iter().rev().fold(0, |colour, channel| {
+        format.channels().rev().fold(0, |colour, channel| {
             let down = CHANNEL_BITS - channel.bits;
             let level = ((tint & ((1 << CHANNEL_BITS) - 1)) + (1 << down >> 1)) >> down;
             tint >>= CHANNEL_BITS;
@@ -148,20 +147,19 @@ impl Value for Moving {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::{Gray4, Gray8, Rgb565, Rgb888};
 
-    fn comes_back<C: Colour>(colours: impl Iterator<Item = u32>) {
+    fn comes_back(format: Colour, colours: impl Iterator<Item = u32>) {
         for colour in colours {
-            assert_eq!(Tint::of::<C>(colour).colour::<C>(), colour);
+            assert_eq!(Tint::of(&format, colour).colour(&format), colour);
         }
     }
 
     #[test]
     fn every_colour_comes_back() {
-        comes_back::<Rgb888>((0..1 << 24).step_by(7));
-        comes_back::<Rgb565>(0..1 << 16);
-        comes_back::<Gray8>(0..256);
-        comes_back::<Gray4>(0..16);
+        comes_back(Colour::RGB888, (0..1 << 24).step_by(7));
+        comes_back(Colour::RGB565, 0..1 << 16);
+        comes_back(Colour::GRAY8, 0..256);
+        comes_back(Colour::GRAY4, 0..16);
     }
 
     #[test]
@@ -182,9 +180,9 @@ mod tests {
 
     #[test]
     fn channels_do_not_reach_into_each_other() {
-        let [black, white] = [0, 0xff_ffff].map(Tint::of::<Rgb888>);
+        let [black, white] = [0, 0xff_ffff].map(|colour| Tint::of(&Colour::RGB888, colour));
         for channel in 0..3 {
-            let one = Tint::of::<Rgb888>(0xff << (8 * channel));
+            let one = Tint::of(&Colour::RGB888, 0xff << (8 * channel));
             for weights in [[1, 0, 0, 0], [16; 4], [1, 2, 3, 4], [0, 0, 15, 1]] {
                 let mean = Tint::mean(&[one, one, one, one], &weights, 1);
                 assert_eq!(mean, one);

@@ -1,30 +1,28 @@
 //! A plain picture with a mask, and a depth where there is one: for what is no galpixmap.
 
-use core::marker::PhantomData;
-
 use super::mean::tie;
 use super::paint::Tint;
 use super::push_pull::{Picture, RUN, Value};
 use super::pyramid::Known;
 use super::validity::FULL;
-use crate::colour::Colour;
 use crate::error::SetupError;
+use crate::format::colour::Colour;
 
 /// Colours, a bit for each of them that is known, and depths.
 #[derive(Debug)]
-pub struct Masked<'p, C> {
+pub struct Masked<'p> {
     width: u32,
     height: u32,
     colours: &'p mut [u32],
     known: &'p [u32],
     depths: &'p [u32],
-    format: PhantomData<C>,
+    format: Colour,
 }
 
 /// Cells of a word of a mask.
 const WORD: u32 = u32::BITS;
 
-impl<'p, C: Colour> Masked<'p, C> {
+impl<'p> Masked<'p> {
     /// `width` x `height` stored colours, row by row; cell `c` is known if bit `c mod 32` of word `c / 32` of `known` is set.
     /// `depths` below 2^25, smaller is nearer, of the holes too; empty for a picture without depth.
     ///
@@ -32,6 +30,7 @@ impl<'p, C: Colour> Masked<'p, C> {
     pub fn new(
         width: u32,
         height: u32,
+        format: Colour,
         colours: &'p mut [u32],
         known: &'p [u32],
         depths: &'p [u32],
@@ -48,7 +47,7 @@ impl<'p, C: Colour> Masked<'p, C> {
         if !depths.is_empty() {
             enough("depth", depths.len(), cells)?;
         }
-        Ok(Self { width, height, colours, known, depths, format: PhantomData })
+        Ok(Self { width, height, colours, known, depths, format })
     }
 
     /// The bits of the mask from `cell` on, up to the end of its word.
@@ -58,7 +57,7 @@ impl<'p, C: Colour> Masked<'p, C> {
     }
 }
 
-impl<C: Colour> Picture for Masked<'_, C> {
+impl Picture for Masked<'_> {
     type Value = Tint;
 
     fn size(&self) -> [u32; 2] {
@@ -71,7 +70,7 @@ impl<C: Colour> Picture for Masked<'_, C> {
         Known {
             validity: (self.bits(cell) & 1) * FULL,
             depth: self.depths.get(cell as usize).copied().unwrap_or_default(),
-            value: Tint::of::<C>(self.colours.get(cell as usize).copied().unwrap_or_default()),
+            value: Tint::of(&self.format, self.colours.get(cell as usize).copied().unwrap_or_default()),
         }
     }
 
@@ -89,7 +88,7 @@ impl<C: Colour> Picture for Masked<'_, C> {
             [0, 1].map(|i: usize| Known {
                 validity: (bits[i] & 1) * FULL,
                 depth: depths[i],
-                value: Tint::of::<C>(colours[i]),
+                value: Tint::of(&self.format, colours[i]),
             })
         };
         let cell = top * self.width + left;
@@ -131,7 +130,8 @@ impl<C: Colour> Picture for Masked<'_, C> {
         }
         let (upper, lower) = (cells(self.colours, cell)?, cells(self.colours, cell + self.width)?);
         for (i, (_, value)) in run.iter_mut().enumerate() {
-            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]].map(Tint::of::<C>);
+            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]]
+                .map(|colour| Tint::of(&self.format, colour));
             *value = Tint::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)
@@ -151,7 +151,7 @@ impl<C: Colour> Picture for Masked<'_, C> {
                     if let Some(tint) = value(self, hole, y)
                         && let Some(colour) = self.colours.get_mut((row + hole) as usize)
                     {
-                        *colour = tint.colour::<C>();
+                        *colour = tint.colour(&self.format);
                         filled += 1;
                     }
                 }

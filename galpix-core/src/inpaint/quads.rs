@@ -9,12 +9,12 @@
 //! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is a bullet
 //! hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
 
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::propagate::{advance, cells_moved, thresholds};
-use crate::record::{Record, Words};
-use crate::rounding::Rounding;
+use crate::format::Format;
+use crate::format::record::{Record, Words};
+use crate::format::rounding::Rounding;
+use crate::frame::step::{advance, cells_moved, thresholds};
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
 /// what lies between them; without a limit a hostile map would take for ever.
@@ -44,9 +44,9 @@ struct Corner {
 }
 
 /// Two maps, one before the other.
-struct Step<'s, 'p, 'q, L, B> {
-    before: &'s Galpixmap<'p, L, B>,
-    map: &'s mut Galpixmap<'q, L, B>,
+struct Step<'s, 'p, 'q, F> {
+    before: &'s Galpixmap<'p, F>,
+    map: &'s mut Galpixmap<'q, F>,
     thresholds: [i32; 3],
     /// Ones in all fields from which a step in the plane follows.
     motion: Words,
@@ -56,14 +56,15 @@ struct Step<'s, 'p, 'q, L, B> {
 /// that the ladder gave them is farther: how often it made one deeper.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
-pub fn lay_background<L: Layout, B: Budget<L>>(
-    before: &Galpixmap<'_, L, B>,
-    map: &mut Galpixmap<'_, L, B>,
+pub fn lay_background<F: Format>(
+    before: &Galpixmap<'_, F>,
+    map: &mut Galpixmap<'_, F>,
     edges: &[u32],
     rounding: Rounding,
     frame: u32,
 ) -> u32 {
-    if !L::LANES.velocity || L::LANES.depth_bits == 0 || before.grid() != map.grid() {
+    let layout = before.record().layout();
+    if !layout.velocity || layout.depth_bits == 0 || before.grid() != map.grid() {
         return 0;
     }
     let thresholds = thresholds(before.record(), rounding, frame);
@@ -107,7 +108,7 @@ fn motion(record: &Record) -> Words {
     motion
 }
 
-impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
+impl<F: Format> Step<'_, '_, '_, F> {
     /// Draws the quads right of column `x + i` for all set bits `i`.
     #[inline(never)]
     fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, row: u32, next: u32) -> u32 {
@@ -153,7 +154,7 @@ impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
         if record.class().unsigned(&words) == Class::Empty as u32 {
             return None;
         }
-        let [dx, dy] = cells_moved::<L>(record, &self.thresholds, &words);
+        let [dx, dy] = cells_moved(record, &self.thresholds, &words);
         Some(Corner { cell, x: x as i32 + dx, y: y + dy })
     }
 
@@ -190,7 +191,7 @@ impl<L: Layout, B: Budget<L>> Step<'_, '_, '_, L, B> {
         let record = self.before.record();
         let farthest = corners.iter().fold(0, |farthest, corner| {
             let mut words = self.before.words_at(corner.cell).unwrap_or_default();
-            advance::<L, true>(record, &self.thresholds, &mut words);
+            advance::<true>(record, &self.thresholds, &mut words);
             record.depth().unsigned(&words).max(farthest)
         });
         partitioned(farthest, true, record.depth().bits.into())

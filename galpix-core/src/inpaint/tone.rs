@@ -1,4 +1,4 @@
-//! What the metameric rung takes means of: luma, chroma, and the motion that goes with them.
+//! What the metameric fill_mode takes means of: luma, chroma, and the motion that goes with them.
 
 use super::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use super::mean::signed;
@@ -7,11 +7,11 @@ use super::push_pull::Value;
 use super::steerable::{COLUMNS, LARGEST};
 use super::tile::Row;
 use super::ycbcr;
-use crate::colour::Colour;
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::record::Words;
+use crate::format::Format;
+use crate::format::colour::Colour;
+use crate::format::record::Words;
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// Luma and chroma, and the cell whose motion goes with them, see [`super::paint::Moving`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -73,34 +73,36 @@ impl Value for Tone {
 }
 
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
-impl<L: Layout> OfGalpixel<L> for Tone {
+impl OfGalpixel for Tone {
     #[inline(always)]
-    fn of(colour: u32, cell: u32) -> Self {
-        Self { channels: ycbcr::of_rgb(L::Colour::to_rgb888(colour)), source: cell }
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { channels: ycbcr::of_rgb(format.to_rgb888(colour)), source: cell }
     }
 
     #[inline(always)]
-    fn put_into<B: Budget<L>>(self, map: &Galpixmap<'_, L, B>, words: Words) -> Words {
+    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words {
         let mut moving = moving_as(map, self.source, words);
-        map.record().colour().set(&mut moving, stored::<L::Colour>(ycbcr::to_rgb(self.channels.map(i32::from))));
+        map.record()
+            .colour()
+            .set(&mut moving, stored(map.record().colour_format(), ycbcr::to_rgb(self.channels.map(i32::from))));
         moving
     }
 }
 
 /// The stored colour nearest to one of 8 bits a channel, or one that is farther by a single code value.
 #[inline(always)]
-fn stored<C: Colour>(rgb: [u8; 3]) -> u32 {
+fn stored(format: &Colour, rgb: [u8; 3]) -> u32 {
     let mut rounded = [0; 3];
     for (i, (to, &level)) in rounded.iter_mut().zip(&rgb).enumerate() {
         // The one channel of a gray stands for all three.
-        let bits = C::CHANNELS.get(i).or(C::CHANNELS.first()).map_or(8, |channel| channel.bits);
+        let bits = format.channel_bits(i);
         // A level of b bits has its high bits once more below: what they add is taken away before half a step is added.
         *to = level - (level as u32 >> bits) as u8 + ((1 << (8 - bits)) >> 1) as u8;
     }
-    C::from_rgb888(rounded)
+    format.from_rgb888(rounded)
 }
 
-impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
+impl<F: Format> Scene for Uncovered<'_, '_, F, Tone> {
     fn holes(&self, mut hole: impl FnMut(u32, u32)) {
         let grid = *self.map.grid();
         for (y, &row) in (0..).zip(grid.starts()) {
@@ -136,7 +138,7 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
             let class = keys[x] >> bits;
             cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
             cells.known[x] = -((class == Class::Galpixel as u32) as i32);
-            let [luma, blue, red] = ycbcr::of_rgb(L::Colour::to_rgb888(colours[x]));
+            let [luma, blue, red] = ycbcr::of_rgb(self.map.record().colour_format().to_rgb888(colours[x]));
             cells.channels[0][x] = luma;
             cells.channels[1][x] = blue;
             cells.channels[2][x] = red;
@@ -156,7 +158,7 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
     }
 
     fn displacement(&self, source: u32, age: u32) -> [i32; 2] {
-        if !L::LANES.velocity {
+        if !self.map.record().layout().velocity {
             return [0; 2];
         }
         let Some(words) = self.map.words_at(source) else { return [0; 2] };
@@ -173,7 +175,7 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
     fn put(&mut self, x: u32, y: u32, tone: Tone) {
         let Some(cell) = self.map.grid().cell(x as i32, y as i32) else { return };
         let words = self.map.words_at(cell).unwrap_or_default();
-        let words = OfGalpixel::<L>::put_into(tone, self.map, words);
+        let words = OfGalpixel::put_into(tone, self.map, words);
         self.map.put(cell, &words);
     }
 }
@@ -181,20 +183,19 @@ impl<L: Layout, B: Budget<L>> Scene for Uncovered<'_, '_, L, B, Tone> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::{Gray4, Gray8, Rgb565, Rgb888};
 
-    fn comes_back<C: Colour>(colours: impl Iterator<Item = u32>) {
+    fn comes_back(format: Colour, colours: impl Iterator<Item = u32>) {
         for colour in colours {
-            assert_eq!(stored::<C>(C::to_rgb888(colour)), colour);
+            assert_eq!(stored(&format, format.to_rgb888(colour)), colour);
         }
     }
 
     #[test]
     fn every_stored_colour_comes_back() {
-        comes_back::<Rgb888>((0..1 << 24).step_by(7));
-        comes_back::<Rgb565>(0..1 << 16);
-        comes_back::<Gray8>(0..256);
-        comes_back::<Gray4>(0..16);
+        comes_back(Colour::RGB888, (0..1 << 24).step_by(7));
+        comes_back(Colour::RGB565, 0..1 << 16);
+        comes_back(Colour::GRAY8, 0..256);
+        comes_back(Colour::GRAY4, 0..16);
     }
 
     #[test]

@@ -1,47 +1,47 @@
 //! One layer beside the base: its maps, and which cells of the base it has a seat in.
 
-use crate::constant;
-use crate::edge;
 use crate::error::SetupError;
-use crate::fill::fill_bullets;
-use crate::frame::{Scratch, Settings, Work, move_on};
-use crate::galpixel::Budget;
-use crate::galpixmap::Galpixmap;
-use crate::grid::Grid;
-use crate::layers::anchored::Anchored;
+use crate::format::Format;
+use crate::frame::edge;
+use crate::frame::fill::fill_bullets;
+use crate::frame::tally::Tally;
+use crate::frame::{Scratch, Settings, move_on, reference};
 use crate::layers::seat;
-use crate::layout::Layout;
-use crate::tally::Tally;
+use crate::layers::stationary::Stationary;
+use crate::map::Galpixmap;
+use crate::map::grid::Grid;
 
 /// Words of memory for the seats of a layer: two bits a cell.
 #[must_use]
-pub const fn seat_words(grid: &Grid<'_>) -> usize {
+pub const fn composite_words(grid: &Grid<'_>) -> usize {
     2 * edge::words(grid)
 }
 
 /// A layer beside the base.
 #[derive(Debug)]
-pub struct Layer<'p, L, B> {
-    pub(super) front: Galpixmap<'p, L, B>,
-    back: Galpixmap<'p, L, B>,
+pub struct Layer<'p, F> {
+    pub(super) front: Galpixmap<'p, F>,
+    back: Galpixmap<'p, F>,
     scratch: Scratch<'p>,
     /// A bit for each cell of the base's front map: whether this layer has its seat there.
     seats: &'p mut [u32],
     /// The same for the map before.
     seats_before: &'p mut [u32],
-    anchored: Option<Anchored<'p, L, B>>,
+    stationary: Option<Stationary<'p, F>>,
+    pub(super) tally: Tally,
+    pub(super) shown: u32,
 }
 
-impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
-    /// A layer that moves like the base: two maps over the same grid, and [`seat_words`] for its seats.
+impl<'p, F: Format> Layer<'p, F> {
+    /// A layer that moves like the base: two maps over the same grid, and [`composite_words`] for its seats.
     ///
-    /// With a winner map it tells where its galpixels come from; with an edge map too it fills its own bullet holes, where the rung
+    /// With a winner map it tells where its galpixels come from; with an edge map too it fills its own bullet holes, where the fill_mode
     /// tells surfaces apart.
     ///
     /// *Errors:* grids that differ, scratch memory that is neither empty nor long enough, too few words for the seats.
     pub fn new(
-        front: Galpixmap<'p, L, B>,
-        back: Galpixmap<'p, L, B>,
+        front: Galpixmap<'p, F>,
+        back: Galpixmap<'p, F>,
         scratch: Scratch<'p>,
         seats: &'p mut [u32],
     ) -> Result<Self, SetupError> {
@@ -53,11 +53,11 @@ impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
     /// is drawn. Bullet holes are not filled.
     ///
     /// *Errors:* as [`Self::new`], and too few words for the displacements.
-    pub fn anchored(
-        stored: Galpixmap<'p, L, B>,
+    pub fn stationary(
+        stored: Galpixmap<'p, F>,
         displacements: &'p mut [u32],
-        front: Galpixmap<'p, L, B>,
-        back: Galpixmap<'p, L, B>,
+        front: Galpixmap<'p, F>,
+        back: Galpixmap<'p, F>,
         winners: &'p mut [u32],
         seats: &'p mut [u32],
     ) -> Result<Self, SetupError> {
@@ -68,70 +68,83 @@ impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
         if have < need {
             return Err(SetupError::TooShort { plane: "plane of displacements", need, have });
         }
-        let anchored = Some(Anchored { stored, displacements });
-        Self::with(front, back, Scratch { winners, edges: &mut [] }, seats, anchored)
+        let stationary = Some(Stationary { stored, displacements });
+        Self::with(front, back, Scratch { winners, edges: &mut [] }, seats, stationary)
     }
 
     fn with(
-        front: Galpixmap<'p, L, B>,
-        back: Galpixmap<'p, L, B>,
+        front: Galpixmap<'p, F>,
+        back: Galpixmap<'p, F>,
         scratch: Scratch<'p>,
         seats: &'p mut [u32],
-        anchored: Option<Anchored<'p, L, B>>,
+        stationary: Option<Stationary<'p, F>>,
     ) -> Result<Self, SetupError> {
         if front.grid() != back.grid() {
             return Err(SetupError::GridsDiffer);
         }
         scratch.check(front.grid().cells(), edge::words(front.grid()))?;
-        let (need, have) = (seat_words(front.grid()), seats.len());
+        let (need, have) = (composite_words(front.grid()), seats.len());
         let halves = seats.get_mut(..need).and_then(|seats| {
             seats.fill(0);
             seats.split_at_mut_checked(need / 2)
         });
         let (seats, seats_before) = halves.ok_or(SetupError::TooShort { plane: "plane of seats", need, have })?;
-        Ok(Self { front, back, scratch, seats, seats_before, anchored })
+        Ok(Self { front, back, scratch, seats, seats_before, stationary, tally: Tally::default(), shown: 0 })
     }
 
     /// Makes the back map from the front map, or draws it from what is stored. From then on the seats are those of the frame
     /// before.
-    pub(super) fn move_on(&mut self, settings: &Settings, frame: u32) -> Tally {
+    pub(super) fn move_on<const CONSTANT_TIME: bool>(&mut self, settings: &Settings, frame: u32) -> Tally {
         core::mem::swap(&mut self.seats, &mut self.seats_before);
-        let Self { front, back, scratch, anchored, .. } = self;
-        if let Some(anchored) = anchored {
+        let Self { front, back, scratch, stationary, .. } = self;
+        if let Some(stationary) = stationary {
             let thresholds = Some((settings.rounding, frame));
-            return anchored.draw(back, scratch.winners, thresholds, settings.work);
+            return stationary.draw::<CONSTANT_TIME>(back, scratch.winners, thresholds);
         }
-        let mut tally = move_on(front, back, scratch, settings, frame);
-        if settings.rung.tells_surfaces() && !scratch.edges.is_empty() && !scratch.winners.is_empty() {
+        let mut tally = move_on::<F, CONSTANT_TIME>(front, back, scratch, settings, frame);
+        if settings.fill_mode.uses_edges() && !scratch.edges.is_empty() && !scratch.winners.is_empty() {
             let (winners, reach) = (&mut *scratch.winners, settings.reach);
-            match settings.work {
-                Work::Skipping => fill_bullets(back, winners, scratch.edges, reach, &mut tally),
-                Work::Constant => constant::fill_bullets(back, winners, scratch.edges, reach, &mut tally),
+            if CONSTANT_TIME {
+                reference::fill_bullets(back, winners, scratch.edges, reach, &mut tally);
+            } else {
+                fill_bullets(back, winners, scratch.edges, reach, &mut tally);
             }
         }
         tally
     }
 
     /// Takes seats in the base's back map.
-    pub(super) fn seat_back(&mut self, base: &mut Galpixmap<'p, L, B>, work: Work) {
-        seat::take(base, &mut self.back, self.seats, work);
+    pub(super) fn seat_back<const CONSTANT_TIME: bool>(&mut self, base: &mut Galpixmap<'p, F>) {
+        seat::take::<F, CONSTANT_TIME>(base, &mut self.back, self.seats);
     }
 
     /// Takes seats in the base's front map.
-    pub(super) fn seat_front(&mut self, base: &mut Galpixmap<'p, L, B>, work: Work) {
-        seat::take(base, &mut self.front, self.seats, work);
+    pub(super) fn seat_front<const CONSTANT_TIME: bool>(&mut self, base: &mut Galpixmap<'p, F>) {
+        seat::take::<F, CONSTANT_TIME>(base, &mut self.front, self.seats);
     }
 
     /// Leaves its seats in the base's front map; which these were stays known.
-    pub(super) fn take_back(&mut self, base: &mut Galpixmap<'p, L, B>, work: Work) {
-        seat::leave(base, &mut self.front, self.seats, work);
+    pub(super) fn take_back<const CONSTANT_TIME: bool>(&mut self, base: &mut Galpixmap<'p, F>) {
+        seat::leave::<F, CONSTANT_TIME>(base, &mut self.front, self.seats);
     }
 
     /// Draws the front map from what is stored, if anything is.
-    pub(super) fn draw(&mut self, work: Work) {
-        if let Some(anchored) = &mut self.anchored {
-            anchored.draw(&mut self.front, self.scratch.winners, None, work);
+    pub(super) fn draw<const CONSTANT_TIME: bool>(&mut self) {
+        if let Some(stationary) = &mut self.stationary {
+            stationary.draw::<CONSTANT_TIME>(&mut self.front, self.scratch.winners, None);
         }
+    }
+
+    /// Returns what the last step counted in this layer by itself; holes are the bullet holes that were filled in it.
+    #[must_use]
+    pub const fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// Returns how many cells show a galpixel of this layer since the last step.
+    #[must_use]
+    pub const fn shown(&self) -> u32 {
+        self.shown
     }
 
     /// Shows what was made.
@@ -140,19 +153,19 @@ impl<'p, L: Layout, B: Budget<L>> Layer<'p, L, B> {
     }
 
     /// Where the layer's galpixels are stored.
-    pub(super) fn stored_mut(&mut self) -> &mut Galpixmap<'p, L, B> {
-        match &mut self.anchored {
-            Some(anchored) => &mut anchored.stored,
+    pub(super) fn stored_mut(&mut self) -> &mut Galpixmap<'p, F> {
+        match &mut self.stationary {
+            Some(stationary) => &mut stationary.stored,
             None => &mut self.front,
         }
     }
 
     pub(super) fn displacements_mut(&mut self) -> Option<&mut [u32]> {
-        self.anchored.as_mut().map(|Anchored { displacements, .. }| &mut **displacements)
+        self.stationary.as_mut().map(|Stationary { displacements, .. }| &mut **displacements)
     }
 
-    pub(super) const fn is_anchored(&self) -> bool {
-        self.anchored.is_some()
+    pub(super) const fn is_stationary(&self) -> bool {
+        self.stationary.is_some()
     }
 
     pub(super) fn winners(&self) -> &[u32] {

@@ -2,12 +2,11 @@
 
 use core::ops::Range;
 
-use crate::constant::{below, opaque};
-use crate::frame::Work;
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::sweep::VECTORS;
+use crate::fast::VECTORS;
+use crate::format::Format;
+use crate::frame::reference::{below, opaque};
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// Cells that are looked at once: a word of seats.
 const RUN: usize = 32;
@@ -21,18 +20,17 @@ pub(super) fn bit(seats: &[u32], cell: u32) -> u32 {
 
 /// Exchanges the galpixels of `base` and `layer` in every cell where the layer's is nearer by class and depth; `seats` says
 /// afterwards where. Of equal keys the base's stays, and with it that of a layer that was seated before.
-pub(super) fn take<L: Layout, B: Budget<L>>(
-    base: &mut Galpixmap<'_, L, B>,
-    layer: &mut Galpixmap<'_, L, B>,
+pub(super) fn take<F: Format, const CONSTANT_TIME: bool>(
+    base: &mut Galpixmap<'_, F>,
+    layer: &mut Galpixmap<'_, F>,
     seats: &mut [u32],
-    work: Work,
 ) {
     let cells = base.grid().cells() as usize;
     let empty = (Class::Empty as u32) << base.record().depth().bits;
     for (index, seats) in seats.iter_mut().enumerate() {
         let run = index * RUN..cells.min(index * RUN + RUN);
         *seats = 0;
-        if work == Work::Skipping && layer.all_empty(run.clone()) {
+        if !CONSTANT_TIME && layer.all_empty(run.clone()) {
             continue;
         }
         let mut nearer = [0; RUN];
@@ -52,42 +50,40 @@ pub(super) fn take<L: Layout, B: Budget<L>>(
                 any |= *nearer;
             }
         }
-        if work == Work::Constant || any != 0 {
+        if CONSTANT_TIME || any != 0 {
             for (lane, &nearer) in nearer.iter().enumerate() {
                 *seats |= (nearer & 1) << lane;
             }
-            exchange(base, layer, run, *seats, work);
+            exchange::<F, CONSTANT_TIME>(base, layer, run, *seats);
         }
     }
 }
 
 /// Undoes [`take`].
-pub(super) fn leave<L: Layout, B: Budget<L>>(
-    base: &mut Galpixmap<'_, L, B>,
-    layer: &mut Galpixmap<'_, L, B>,
+pub(super) fn leave<F: Format, const CONSTANT_TIME: bool>(
+    base: &mut Galpixmap<'_, F>,
+    layer: &mut Galpixmap<'_, F>,
     seats: &[u32],
-    work: Work,
 ) {
     let cells = base.grid().cells() as usize;
     for (index, &seats) in seats.iter().enumerate() {
-        if work == Work::Constant || seats != 0 {
-            exchange(base, layer, index * RUN..cells.min(index * RUN + RUN), seats, work);
+        if CONSTANT_TIME || seats != 0 {
+            exchange::<F, CONSTANT_TIME>(base, layer, index * RUN..cells.min(index * RUN + RUN), seats);
         }
     }
 }
 
 /// Exchanges the words of those cells of a run whose bit is set.
 #[inline(always)]
-fn exchange<L: Layout, B: Budget<L>>(
-    base: &mut Galpixmap<'_, L, B>,
-    layer: &mut Galpixmap<'_, L, B>,
+fn exchange<F: Format, const CONSTANT_TIME: bool>(
+    base: &mut Galpixmap<'_, F>,
+    layer: &mut Galpixmap<'_, F>,
     run: Range<usize>,
     seats: u32,
-    work: Work,
 ) {
     let words = base.record().words();
     let planes = base.planes_mut().iter_mut().zip(layer.planes_mut()).take(words);
-    if work == Work::Skipping && !VECTORS {
+    if !CONSTANT_TIME && !VECTORS {
         for (base, layer) in planes {
             let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };
             exchange_few(base, layer, seats);

@@ -1,21 +1,20 @@
 //! What was shown before, while the layers have their own galpixels back.
 
-use crate::constant::choose_words;
-use crate::fill::Around;
-use crate::galpixel::Budget;
-use crate::galpixmap::Galpixmap;
+use crate::format::Format;
+use crate::format::record::{Record, Words};
+use crate::frame::fill::Around;
+use crate::frame::reference::choose_words;
 use crate::layers::layer::Layer;
 use crate::layers::seat;
-use crate::layout::Layout;
-use crate::record::{Record, Words};
+use crate::map::Galpixmap;
 
 /// The front maps, each with its own galpixels, and where the layers had and have their seats.
-pub(super) struct Shown<'s, 'p, L, B, const HIDDEN: usize> {
-    pub front: &'s Galpixmap<'p, L, B>,
-    pub hidden: &'s [Layer<'p, L, B>; HIDDEN],
+pub(super) struct Shown<'s, 'p, F> {
+    pub front: &'s Galpixmap<'p, F>,
+    pub hidden: &'s [Layer<'p, F>],
 }
 
-impl<L: Layout, B: Budget<L>, const HIDDEN: usize> Around for Shown<'_, '_, L, B, HIDDEN> {
+impl<F: Format> Around for Shown<'_, '_, F> {
     #[inline(always)]
     fn record(&self) -> &Record {
         self.front.record()

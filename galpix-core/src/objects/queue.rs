@@ -1,14 +1,12 @@
 //! Renderings that have arrived and wait for a frame boundary, in memory that is bounded beforehand.
 
-use core::marker::PhantomData;
-
 use heapless::Deque;
+use heapless::deque::DequeView;
 
 use crate::error::SetupError;
-use crate::galpixel::Budget;
-use crate::layout::Layout;
+use crate::format::Format;
+use crate::format::rounding::Rounding;
 use crate::objects::{Object, ObjectsTally, Refusal, Refusals, Stack, replace};
-use crate::rounding::Rounding;
 
 /// What a queue takes, beside the number of renderings that may wait, which its type says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,10 +20,9 @@ pub struct Limits {
     pub age: u32,
 }
 
-/// A rendering that waits. Its size is a power of two, so that the next one is found by a shift and not by a product.
+/// The place of a rendering that waits.
 #[derive(Clone, Copy, Debug)]
-#[repr(align(32))]
-struct Pending {
+pub struct Pending {
     tag: u32,
     layer: u32,
     stamp: u32,
@@ -36,8 +33,6 @@ struct Pending {
     words: u32,
 }
 
-const _: () = assert!(size_of::<Pending>() == 32);
-
 impl Pending {
     const fn object(&self) -> Object {
         let Self { tag, layer, stamp, place: [x, y], size: [width, height], .. } = *self;
@@ -45,12 +40,15 @@ impl Pending {
     }
 }
 
-/// At most `UPDATES` renderings that wait, first come, first served; their galpixels lie in a ring of lent memory.
+/// Places for `N` renderings that wait.
+pub type Places<const N: usize> = Deque<Pending, N>;
+
+/// Renderings that wait, first come, first served; their galpixels lie in a ring over a caller-provided buffer.
 #[derive(Debug)]
-pub struct Queue<'q, L, B, const UPDATES: usize> {
-    budget: B,
+pub struct Queue<'q, F> {
+    format: F,
     limits: Limits,
-    pending: Deque<Pending, UPDATES>,
+    pending: &'q mut DequeView<Pending>,
     ring: &'q mut [u32],
     /// Where the first rendering's words begin, and how many words all have.
     head: usize,
@@ -58,44 +56,48 @@ pub struct Queue<'q, L, B, const UPDATES: usize> {
     /// Cells that still fit.
     left: u32,
     refusals: Refusals,
-    layout: PhantomData<L>,
 }
 
-impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES> {
+impl<'q, F: Format> Queue<'q, F> {
     /// Words of memory for `cells` cells that wait.
     #[must_use]
-    pub fn words(budget: B, cells: u32) -> usize {
-        budget.record().words().saturating_mul(cells as usize)
+    pub fn words(format: F, cells: u32) -> usize {
+        format.record().words().saturating_mul(cells as usize)
     }
 
     /// An empty queue for maps of a layout and budget.
     ///
     /// *Errors:* a layout without a tag lane, memory shorter than [`Self::words`] of `limits.cells`.
-    pub fn new(budget: B, limits: Limits, memory: &'q mut [u32]) -> Result<Self, SetupError> {
-        if !budget.record().tag().present() {
+    pub fn new(
+        format: F,
+        limits: Limits,
+        places: &'q mut DequeView<Pending>,
+        memory: &'q mut [u32],
+    ) -> Result<Self, SetupError> {
+        if !format.record().tag().present() {
             return Err(SetupError::NoTag);
         }
-        let (need, have) = (Self::words(budget, limits.cells), memory.len());
+        let (need, have) = (Self::words(format, limits.cells), memory.len());
         let Some(ring) = memory.get_mut(..need) else {
             return Err(SetupError::TooShort { plane: "memory of waiting renderings", need, have });
         };
+        places.clear();
         Ok(Self {
-            budget,
+            format,
             limits,
-            pending: Deque::new(),
+            pending: places,
             ring,
             head: 0,
             used: 0,
             left: limits.cells,
             refusals: Refusals::default(),
-            layout: PhantomData,
         })
     }
 
     /// Takes a new rendering of an object, to enter at one of the next frame boundaries. Its words are copied.
     ///
     /// *Errors:* see [`Refusal`]; a refused rendering is counted, and whatever was there stays.
-    pub fn submit<'p>(&mut self, stack: &impl Stack<'p, L, B>, object: &Object, words: &[u32]) -> Result<(), Refusal> {
+    pub fn submit<'p>(&mut self, stack: &impl Stack<'p, F>, object: &Object, words: &[u32]) -> Result<(), Refusal> {
         let checked = self.checked(stack, object, words);
         match checked {
             Ok(pending) => {
@@ -109,8 +111,8 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
         checked.map(|_| ())
     }
 
-    fn checked<'p>(&self, stack: &impl Stack<'p, L, B>, object: &Object, words: &[u32]) -> Result<Pending, Refusal> {
-        let record = self.budget.record();
+    fn checked<'p>(&self, stack: &impl Stack<'p, F>, object: &Object, words: &[u32]) -> Result<Pending, Refusal> {
+        let record = self.format.record();
         let Object { tag, layer, stamp, place, size } = *object;
         let bits = u32::from(record.tag().bits);
         if bits < 32 && tag >> bits != 0 {
@@ -142,7 +144,7 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
             return Err(Refusal::Age { age, most: self.limits.age });
         }
         if self.pending.is_full() {
-            return Err(Refusal::Queue { most: UPDATES });
+            return Err(Refusal::Queue { most: self.pending.storage_capacity() });
         }
         if cells > self.left {
             return Err(Refusal::Memory { cells, left: self.left });
@@ -156,7 +158,7 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
     /// call handles at most `most` or [`Limits::cells_each`] cells, whichever is more, each with at most [`Limits::age`] steps.
     ///
     /// A rendering that has become too old, or whose layer is gone, is dropped and counted, see [`Self::refusals`].
-    pub fn apply<'p>(&mut self, stack: &mut impl Stack<'p, L, B>, rounding: Rounding, most: u32) -> ObjectsTally {
+    pub fn apply<'p>(&mut self, stack: &mut impl Stack<'p, F>, rounding: Rounding, most: u32) -> ObjectsTally {
         let now = stack.now();
         let (mut tally, mut handled) = (ObjectsTally::default(), 0u32);
         while let Some(&pending) = self.pending.front() {
@@ -186,7 +188,7 @@ impl<'q, L: Layout, B: Budget<L>, const UPDATES: usize> Queue<'q, L, B, UPDATES>
     /// Renderings that wait.
     #[must_use]
     pub fn waiting(&self) -> usize {
-        self.pending.len()
+        self.pending.storage_len()
     }
 
     /// Cells that the memory still has room for.

@@ -13,7 +13,7 @@ pub enum Refusal {
         /// Bits of the lane.
         bits: u32,
     },
-    /// There is no such layer, or its galpixels are anchored and delivered as a whole.
+    /// There is no such layer, or its galpixels are stationary and delivered as a whole.
     Layer {
         /// The layer.
         layer: u32,
@@ -74,7 +74,7 @@ impl fmt::Display for Refusal {
             ),
             Self::Layer { layer } => write!(
                 f,
-                "nothing can be grafted into layer {layer}: name a layer that there is and that is not anchored, 0 is the base"
+                "nothing can be grafted into layer {layer}: name a layer that there is and that is not stationary, 0 is the base"
             ),
             Self::Place { place: [x, y], size: [width, height] } => write!(
                 f,

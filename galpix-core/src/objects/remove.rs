@@ -2,19 +2,19 @@
 
 use core::ops::Range;
 
-use crate::galpixel::{Budget, Class};
-use crate::galpixmap::Galpixmap;
-use crate::layout::Layout;
-use crate::record::MAX_WORDS;
+use crate::format::Format;
+use crate::format::record::MAX_WORDS;
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// Cells that are looked at once: as many as a word has bits.
 const RUN: u32 = 32;
 
 /// Makes every cell with this tag empty, whatever its class; how many there were. Their colours stay, as the display shows
 /// what was there until something else is put there.
-pub(super) fn by_tag<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, tag: u32) -> u32 {
-    let budget = map.budget();
-    let record = budget.record();
+pub(super) fn by_tag<F: Format>(map: &mut Galpixmap<'_, F>, tag: u32) -> u32 {
+    let format = map.format();
+    let record = format.record();
     let cells = map.grid().cells();
     let (mut removed, mut start) = (0, 0);
     while start < cells {
@@ -38,7 +38,7 @@ pub(super) fn by_tag<L: Layout, B: Budget<L>>(map: &mut Galpixmap<'_, L, B>, tag
 
 /// A bit for each of at most [`RUN`] cells: whether it holds a galpixel or debris of this tag.
 #[inline(always)]
-fn tagged<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, cells: Range<usize>, tag: u32) -> u32 {
+fn tagged<F: Format>(map: &Galpixmap<'_, F>, cells: Range<usize>, tag: u32) -> u32 {
     let record = map.record();
     let plane = |word: usize| map.planes().get(word).and_then(|plane| plane.get(cells.clone())).unwrap_or_default();
     let (class_word, _) = record.class().words();

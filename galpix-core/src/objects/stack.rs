@@ -1,29 +1,28 @@
 //! What objects can be grafted into: one map or several layers.
 
+use crate::format::Format;
 use crate::frame::Controller;
-use crate::galpixel::Budget;
-use crate::galpixmap::Galpixmap;
 use crate::layers::Layers;
-use crate::layout::Layout;
+use crate::map::Galpixmap;
 
 /// Maps of one grid that move together, and their frame counter.
-pub trait Stack<'p, L, B> {
+pub trait Stack<'p, F> {
     /// The map that is shown.
-    fn shown(&self) -> &Galpixmap<'p, L, B>;
+    fn shown(&self) -> &Galpixmap<'p, F>;
 
     /// The frame counter.
     fn now(&self) -> u32;
 
-    /// Whether there is such a layer, and its galpixels move from cell to cell. Into an anchored layer nothing is grafted: it is
+    /// Whether there is such a layer, and its galpixels move from cell to cell. Into an stationary layer nothing is grafted: it is
     /// delivered as a whole.
     fn takes(&self, layer: u32) -> bool;
 
     /// The galpixels of a layer; nothing if there is no such layer.
-    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, L, B>>;
+    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, F>>;
 }
 
-impl<'p, L: Layout, B: Budget<L>> Stack<'p, L, B> for Controller<'p, L, B> {
-    fn shown(&self) -> &Galpixmap<'p, L, B> {
+impl<'p, F: Format> Stack<'p, F> for Controller<'p, F> {
+    fn shown(&self) -> &Galpixmap<'p, F> {
         self.front()
     }
 
@@ -35,13 +34,13 @@ impl<'p, L: Layout, B: Budget<L>> Stack<'p, L, B> for Controller<'p, L, B> {
         layer == 0
     }
 
-    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, L, B>> {
+    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, F>> {
         if layer == 0 { Some(self.front_mut()) } else { None }
     }
 }
 
-impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Stack<'p, L, B> for Layers<'p, L, B, HIDDEN> {
-    fn shown(&self) -> &Galpixmap<'p, L, B> {
+impl<'p, F: Format> Stack<'p, F> for Layers<'p, '_, F> {
+    fn shown(&self) -> &Galpixmap<'p, F> {
         self.front()
     }
 
@@ -50,10 +49,10 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Stack<'p, L, B> for Layer
     }
 
     fn takes(&self, layer: u32) -> bool {
-        layer as usize <= HIDDEN && !self.is_anchored(layer as usize)
+        layer as usize <= self.hidden().len() && !self.is_stationary(layer as usize)
     }
 
-    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, L, B>> {
+    fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, F>> {
         self.layer_mut(layer as usize)
     }
 }

@@ -4,10 +4,10 @@ use std::println;
 use std::vec::Vec;
 
 use super::{Bound, Motion, times};
-use crate::budget::Component;
-use crate::propagate::{clamp_velocity, snap, step_position, step_velocity};
-use crate::record::Scale;
-use crate::rounding::Rounding;
+use crate::format::budget::Component;
+use crate::format::record::Scale;
+use crate::format::rounding::Rounding;
+use crate::frame::step::{clamp_velocity, snap, step_position, step_velocity};
 
 /// Bits of acceleration and of velocity that saturate soon.
 const ACCELERATED: Component =

@@ -1,0 +1,142 @@
+//! The fast forms of a frame's passes, and the one place where they are chosen.
+//!
+//! Every pass has a reference in [`crate::frame`], whose work does not depend on the picture. Here is at most one faster form
+//! for each class of machine: [`wide`] where loops over neighbours become vector code, [`narrow`] where they do not.
+
+pub mod narrow;
+pub mod rolling;
+pub mod wide;
+
+use crate::disocclusion::{self, Reach};
+use crate::error::SetupError;
+use crate::format::rounding::Rounding;
+use crate::format::{Dynamic, Format, Profile, Static};
+use crate::frame::fill::{self, FillMode};
+use crate::frame::tally::Tally;
+use crate::frame::{self, Inpainting, Scratch, Settings};
+use crate::inpaint::metamer::{self, Recipe};
+use crate::inpaint::paint::{Moving, Tint};
+use crate::inpaint::pyramid::Pyramid;
+use crate::inpaint::{map, quads};
+use crate::layers::{self, Layers};
+use crate::map::Galpixmap;
+use rolling::Rolling;
+
+/// Whether loops over neighbours become vector code here. Decides which form is taken, and no bit of a result.
+pub(crate) const VECTORS: bool =
+    cfg!(any(target_arch = "x86_64", target_arch = "x86", target_arch = "aarch64", target_arch = "wasm32"));
+
+/// Marks the edges of a map, see [`crate::frame::edge::mark`].
+pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
+    if VECTORS { wide::edge::mark(front, threshold, edges) } else { narrow::edge::mark(front, threshold, edges) }
+}
+
+/// [`mark`] by instructions that do not depend on the picture.
+pub(crate) fn mark_constant_time<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
+    if VECTORS { wide::edge::mark(front, threshold, edges) } else { narrow::edge::mark_all(front, threshold, edges) }
+}
+
+/// Propagates and resolves a map, see [`crate::frame::resolve::sweep`].
+pub(crate) fn sweep<F: Format>(
+    front: &Galpixmap<'_, F>,
+    back: &mut Galpixmap<'_, F>,
+    winners: &mut [u32],
+    rounding: Rounding,
+    frame: u32,
+) -> Tally {
+    if VECTORS {
+        wide::sweep(front, back, winners, rounding, frame)
+    } else {
+        narrow::sweep(front, back, winners, rounding, frame)
+    }
+}
+
+/// Declares the passes over maps: generic in the format, and compiled once, here, for [`Dynamic`].
+macro_rules! passes {
+    ($(fn $name:ident($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)? = $pass:expr;)*) => {
+        /// The passes over maps of a format.
+        #[doc(hidden)]
+        pub trait Passes: Sized {
+            $(fn $name($($argument: $type),*) $(-> $result)? where Self: Format { $pass($($argument),*) })*
+        }
+
+        impl<P: Profile> Passes for Static<P> {}
+
+        impl Passes for Dynamic {
+            $(fn $name($($argument: $type),*) $(-> $result)? { $pass($($argument),*) })*
+        }
+    };
+}
+
+passes! {
+    fn step(
+        front: &Galpixmap<'_, Self>,
+        back: &mut Galpixmap<'_, Self>,
+        scratch: &mut Scratch<'_>,
+        settings: &Settings,
+        frame: u32,
+    ) -> Tally = frame::make::<Self, false>;
+    fn step_constant_time(
+        front: &Galpixmap<'_, Self>,
+        back: &mut Galpixmap<'_, Self>,
+        scratch: &mut Scratch<'_>,
+        settings: &Settings,
+        frame: u32,
+    ) -> Tally = frame::make::<Self, true>;
+    fn mark(front: &Galpixmap<'_, Self>, threshold: u32, edges: &mut [u32]) -> u32 = mark::<Self>;
+    fn sweep(
+        front: &Galpixmap<'_, Self>,
+        back: &mut Galpixmap<'_, Self>,
+        winners: &mut [u32],
+        rounding: Rounding,
+        frame: u32,
+    ) -> Tally = sweep::<Self>;
+    fn fill(
+        front: &Galpixmap<'_, Self>,
+        back: &mut Galpixmap<'_, Self>,
+        winners: &mut [u32],
+        edges: &[u32],
+        fill_mode: FillMode,
+        reach: u32,
+        tally: &mut Tally,
+    ) = fill::fill_around;
+    fn rolling_step(rolling: &mut Rolling<'_, Self>, settings: &Settings) -> Tally = rolling::make;
+    fn layers_step(layers: &mut Layers<'_, '_, Self>, settings: &Settings) -> Tally = layers::make::<Self, false>;
+    fn layers_step_constant_time(layers: &mut Layers<'_, '_, Self>, settings: &Settings) -> Tally =
+        layers::make::<Self, true>;
+    fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
+    fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
+    fn push_pull_tint(
+        map: &mut Galpixmap<'_, Self>,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, Tint>,
+    ) -> u32 = map::push_pull;
+    fn push_pull_moving(
+        map: &mut Galpixmap<'_, Self>,
+        inpainting: &Inpainting<'_>,
+        pyramid: &mut Pyramid<'_, Moving>,
+    ) -> u32 = map::push_pull;
+    fn metamers(
+        map: &mut Galpixmap<'_, Self>,
+        inpainting: &Inpainting<'_>,
+        scratch: &mut metamer::Scratch<'_>,
+        recipe: &Recipe,
+    ) -> Result<u32, SetupError> = map::metamers;
+    fn lay_background(
+        before: &Galpixmap<'_, Self>,
+        map: &mut Galpixmap<'_, Self>,
+        edges: &[u32],
+        rounding: Rounding,
+        frame: u32,
+    ) -> u32 = quads::lay_background;
+    fn disocclusion_map(front: &Galpixmap<'_, Self>, extents: &mut [u32], reach: &Reach) -> disocclusion::Tally =
+        disocclusion::make;
+    fn disocclusion_mark(front: &Galpixmap<'_, Self>, extents: &mut [u32], reach: &Reach) -> disocclusion::Tally =
+        disocclusion::mark_pairs;
+    fn disocclusion_cover(
+        front: &Galpixmap<'_, Self>,
+        line: &mut [u32],
+        mask: &mut [u32],
+        reach: &Reach,
+    ) -> disocclusion::Tally = disocclusion::make_cover;
+}

@@ -1,0 +1,199 @@
+//! Colour formats: how a colour is stored, averaged and brightened. The core never interprets a colour beyond that.
+
+use crate::error::BudgetError;
+
+/// One channel of a stored colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Channel {
+    /// Position of the lowest bit.
+    pub shift: u32,
+    /// Bits, 1 to 8.
+    pub bits: u32,
+}
+
+impl Channel {
+    #[inline(always)]
+    const fn of(self, colour: u32) -> u32 {
+        (colour >> self.shift) & ((1 << self.bits) - 1)
+    }
+}
+
+/// A colour format: red, green and blue, or one channel of gray, side by side in the low bits of a word.
+///
+/// ```
+/// use galpix_core::Colour;
+/// const RGB332: Colour = Colour::must(Colour::rgb(3, 3, 2));
+/// assert_eq!(RGB332.bits(), 8);
+/// assert_eq!(RGB332.from_rgb888([255, 0, 128]), 0b111_000_10);
+/// assert_eq!(RGB332.to_rgb888(0b111_000_10), [255, 0, 170]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Colour {
+    channels: [Channel; 3],
+    count: u8,
+}
+
+impl Colour {
+    /// 24 bits: red, green, blue.
+    pub const RGB888: Self = Self::must(Self::rgb(8, 8, 8));
+    /// 16 bits: 5 red, 6 green, 5 blue.
+    pub const RGB565: Self = Self::must(Self::rgb(5, 6, 5));
+    /// 8 bits of luminosity.
+    pub const GRAY8: Self = Self::must(Self::gray(8));
+    /// 4 bits of luminosity.
+    pub const GRAY4: Self = Self::must(Self::gray(4));
+
+    /// Makes a format of three channels from their bits, red highest.
+    ///
+    /// *Errors:* a channel without a bit, or of more than 8.
+    pub const fn rgb(red: u32, green: u32, blue: u32) -> Result<Self, BudgetError> {
+        if let Err(error) = check(red) {
+            return Err(error);
+        }
+        if let Err(error) = check(green) {
+            return Err(error);
+        }
+        if let Err(error) = check(blue) {
+            return Err(error);
+        }
+        let channels = [
+            Channel { shift: green + blue, bits: red },
+            Channel { shift: blue, bits: green },
+            Channel { shift: 0, bits: blue },
+        ];
+        Ok(Self { channels, count: 3 })
+    }
+
+    /// Makes a format of one channel, which holds the luminosity.
+    ///
+    /// *Errors:* a channel without a bit, or of more than 8.
+    pub const fn gray(bits: u32) -> Result<Self, BudgetError> {
+        match check(bits) {
+            Ok(()) => Ok(Self { channels: [Channel { shift: 0, bits }; 3], count: 1 }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Returns the format of a constant; what cannot exist is a compile error with the reason.
+    #[must_use]
+    pub const fn must(colour: Result<Self, BudgetError>) -> Self {
+        match colour {
+            Ok(colour) => colour,
+            Err(_) => panic!("colour: a channel has 1 to 8 bits"),
+        }
+    }
+
+    /// Returns the bits of a stored colour.
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        self.channels[0].shift + self.channels[0].bits
+    }
+
+    /// Returns the channels, most significant first.
+    #[inline(always)]
+    pub fn channels(&self) -> impl DoubleEndedIterator<Item = Channel> + '_ {
+        self.channels.iter().take(self.count as usize).copied()
+    }
+
+    /// Whether the format has one channel, of luminosity.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_gray(self) -> bool {
+        self.count == 1
+    }
+
+    /// Returns the bits of a channel, 0 to 2; the one channel of a gray stands for all three.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) const fn channel_bits(&self, channel: usize) -> u32 {
+        self.channels[channel].bits
+    }
+
+    /// Returns the narrowest channel's bits: one step of luminosity is one step of that channel, and correspondingly more
+    /// of a wider one.
+    #[inline(always)]
+    #[must_use]
+    pub const fn luminosity_bits(self) -> u32 {
+        let [first, second, third] = self.channels;
+        let least = if first.bits < second.bits { first.bits } else { second.bits };
+        if least < third.bits { least } else { third.bits }
+    }
+
+    /// Stores 8-bit red, green and blue, by dropping low bits.
+    #[inline(always)]
+    #[must_use]
+    #[expect(clippy::wrong_self_convention, reason = "converts from the argument into this format")]
+    pub const fn from_rgb888(self, rgb: [u8; 3]) -> u32 {
+        let [first, second, third] = self.channels;
+        if self.is_gray() {
+            return luminosity(rgb) as u32 >> (8 - first.bits);
+        }
+        let [red, green, blue] = rgb;
+        (red as u32 >> (8 - first.bits)) << first.shift
+            | (green as u32 >> (8 - second.bits)) << second.shift
+            | (blue as u32 >> (8 - third.bits)) << third.shift
+    }
+
+    /// Returns 8-bit red, green and blue, by repeating the high bits in the low ones.
+    #[inline(always)]
+    #[must_use]
+    pub const fn to_rgb888(self, colour: u32) -> [u8; 3] {
+        let [first, second, third] = self.channels;
+        [
+            widened(first.of(colour), first.bits),
+            widened(second.of(colour), second.bits),
+            widened(third.of(colour), third.bits),
+        ]
+    }
+
+    /// Returns the mean of four colours, channel by channel, halves upwards. The mean of `p, p, q, q` is that of `p` and `q`.
+    #[inline(always)]
+    #[must_use]
+    pub fn mean4(&self, colours: [u32; 4]) -> u32 {
+        self.channels().fold(0, |mean, channel| {
+            let sum = colours.iter().fold(2, |sum, &colour| sum + channel.of(colour));
+            mean | (sum >> 2) << channel.shift
+        })
+    }
+
+    /// Returns the colour after `steps` of luminosity, each channel clamped to its range.
+    #[inline(always)]
+    #[must_use]
+    pub fn brightened(&self, colour: u32, steps: i32) -> u32 {
+        let least = self.luminosity_bits();
+        self.channels().fold(0, |bright, channel| {
+            let level = channel.of(colour) as i32 + (steps << (channel.bits - least));
+            let most = (1 << channel.bits) - 1;
+            let level = if level < 0 {
+                0
+            } else if level > most {
+                most
+            } else {
+                level
+            };
+            bright | (level as u32) << channel.shift
+        })
+    }
+}
+
+const fn check(bits: u32) -> Result<(), BudgetError> {
+    if bits == 0 || bits > 8 { Err(BudgetError::ChannelBits { bits }) } else { Ok(()) }
+}
+
+/// Returns the paper's estimate of luminosity by the fractions 1/2 and 1/4: `(red + 2 green + blue) / 4`.
+#[inline(always)]
+#[must_use]
+pub const fn luminosity([red, green, blue]: [u8; 3]) -> u8 {
+    ((red as u32 + ((green as u32) << 1) + blue as u32) >> 2) as u8
+}
+
+/// Repeats the `bits` bits of `level` until they fill 8.
+#[inline(always)]
+const fn widened(level: u32, bits: u32) -> u8 {
+    let top = level << (8 - bits);
+    let twice = top | top >> bits;
+    let four = twice | twice >> (2 * bits);
+    (four | four >> (4 * bits)) as u8
+}

@@ -1,0 +1,427 @@
+//! The stored form of a galpixel: which bits of which 32-bit word hold which field.
+//!
+//! Every field has exactly the width that its budget gives. The fields are packed into the fewest words that hold them:
+//! first-fit by falling width (ties in canonical order); if that wastes a word, all fields are laid end to end in
+//! canonical order instead, and a field may then straddle two words. Within a word fields stand in canonical order from
+//! the most significant bit down, so that class and depth of a first-fit word compare as one number.
+
+mod pack;
+
+use pack::pack;
+
+use crate::error::BudgetError;
+use crate::format::budget::{Bits, Component, WIDEST_FIELD};
+use crate::format::colour::Colour;
+use crate::format::layout::Layout;
+
+/// The most words of a galpixel. A power of two.
+pub const MAX_WORDS: usize = 8;
+
+/// Fields of a galpixel, in canonical order.
+const CLASS: usize = 0;
+const DEPTH: usize = 1;
+const OFFSET: [usize; 2] = [2, 3];
+const VELOCITY: [usize; 3] = [4, 6, 8];
+const ACCELERATION: [usize; 3] = [5, 7, 9];
+const COLOUR: usize = 10;
+const TAG: usize = 11;
+const LUMINOSITY_RATE: usize = 12;
+const LUMINOSITY: usize = 13;
+const FIELDS: usize = 14;
+
+/// Where one field is stored. An absent field has width 0, reads 0 and ignores writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Field {
+    /// Bits of the field.
+    pub bits: u8,
+    /// The word of the upper part: the whole field, unless it straddles.
+    pub word: u8,
+    /// Lowest bit of the upper part in its word.
+    pub shift: u8,
+    /// Bits of the field that continue at the top of the next word; 0 unless it straddles.
+    pub spill: u8,
+}
+
+/// The words of one galpixel. Those beyond the record's are 0.
+pub(crate) type Words = [u32; MAX_WORDS];
+
+const fn low_mask(bits: u32) -> u32 {
+    if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
+}
+
+impl Field {
+    /// Whether the field is there at all.
+    #[inline(always)]
+    #[must_use]
+    pub const fn present(self) -> bool {
+        self.bits != 0
+    }
+
+    #[inline(always)]
+    const fn upper_bits(self) -> u32 {
+        (self.bits - self.spill) as u32
+    }
+
+    /// The word of the upper part, and the word of what spills (the same if nothing does).
+    #[inline(always)]
+    pub(crate) fn words(self) -> (usize, usize) {
+        let word = self.word as usize & (MAX_WORDS - 1);
+        (word, (word + (self.spill > 0) as usize) & (MAX_WORDS - 1))
+    }
+
+    /// How this field is taken out of its words.
+    #[inline(always)]
+    pub(crate) fn extract(self) -> Extract {
+        let upper_bits = if self.bits == 0 { 32 } else { self.upper_bits() };
+        Extract {
+            left: 32 - upper_bits - self.shift as u32,
+            right: 32 - upper_bits,
+            spill: self.spill as u32,
+            present: if self.bits == 0 { 0 } else { u32::MAX },
+        }
+    }
+
+    /// The words that hold the field, a bit for each.
+    #[inline(always)]
+    pub(crate) fn word_set(self) -> u32 {
+        let (upper, lower) = self.words();
+        if self.bits == 0 { 0 } else { 1 << upper | 1 << lower }
+    }
+
+    /// The bits of the upper part in its word, the lowest of them, and how many bits spill.
+    #[inline(always)]
+    pub(crate) const fn upper_mask(self) -> (u32, u32, u32) {
+        (low_mask(self.upper_bits()) << self.shift, self.shift as u32, self.spill as u32)
+    }
+
+    /// The field's lowest bit in its word, if its highest is the word's highest.
+    #[inline(always)]
+    pub(crate) const fn at_top(self) -> Option<u32> {
+        if self.spill == 0 && self.shift as u32 + self.bits as u32 == 32 { Some(self.shift as u32) } else { None }
+    }
+
+    /// The field as an unsigned number.
+    #[inline(always)]
+    pub(crate) fn unsigned(self, words: &Words) -> u32 {
+        let (upper, lower) = self.words();
+        self.extract().unsigned(words[upper], words[lower])
+    }
+
+    /// The field as a two's complement number.
+    #[inline(always)]
+    pub(crate) fn signed(self, words: &Words) -> i32 {
+        let (upper, lower) = self.words();
+        self.extract().signed(words[upper], words[lower])
+    }
+
+    /// Replaces the field by the low bits of `value`.
+    #[inline(always)]
+    pub(crate) fn set(self, words: &mut Words, value: u32) {
+        if self.bits == 0 {
+            return;
+        }
+        let (upper, lower) = self.words();
+        let mask = low_mask(self.upper_bits()) << self.shift;
+        words[upper] = words[upper] & !mask | (value >> self.spill) << self.shift & mask;
+        if self.spill != 0 {
+            let shift = 32 - self.spill as u32;
+            words[lower] = words[lower] & low_mask(shift) | value << shift;
+        }
+    }
+}
+
+/// How one field is taken out of the word of its upper part and the word of what spills. Branch-free, so that loops over
+/// lanes become vector code.
+#[derive(Clone, Copy)]
+pub(crate) struct Extract {
+    left: u32,
+    right: u32,
+    spill: u32,
+    /// All ones, or 0 for an absent field.
+    present: u32,
+}
+
+impl Extract {
+    #[inline(always)]
+    pub(crate) fn unsigned(self, upper: u32, lower: u32) -> u32 {
+        let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
+        (((upper << self.left) >> self.right) << self.spill | spilled) & self.present
+    }
+
+    #[inline(always)]
+    pub(crate) fn signed(self, upper: u32, lower: u32) -> i32 {
+        let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
+        ((((upper << self.left) as i32) >> self.right) << self.spill | spilled as i32) & self.present as i32
+    }
+}
+
+/// The arithmetic of one component: how velocity and acceleration are brought to the position's unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Scale {
+    /// Bits by which an acceleration is coarser than a velocity.
+    pub acceleration_up: u32,
+    /// Bits dropped from `2v + a` to reach the position's unit, after the rounding threshold.
+    pub down: u32,
+    /// Bits gained instead, where the position is the finer one. One of `down` and `up` is 0.
+    pub up: u32,
+    /// Fraction bits of the position.
+    pub position_frac: u32,
+    /// Fraction bits of the velocity.
+    pub velocity_frac: u32,
+    /// Fraction bits of the acceleration.
+    pub acceleration_frac: u32,
+    /// Bits of the velocity.
+    pub velocity_bits: u32,
+}
+
+impl Scale {
+    /// The arithmetic of a component whose position has `position_frac` fraction bits (in depth these are not the
+    /// component's own, see [`Record::plan`]).
+    #[must_use]
+    pub const fn new(component: Component, position_frac: u32) -> Self {
+        let step_frac = component.velocity_frac + 1;
+        Self {
+            acceleration_up: component.velocity_frac.saturating_sub(component.acceleration_frac),
+            down: step_frac.saturating_sub(position_frac),
+            up: position_frac.saturating_sub(step_frac),
+            position_frac,
+            velocity_frac: component.velocity_frac,
+            acceleration_frac: component.acceleration_frac,
+            velocity_bits: component.velocity_bits(),
+        }
+    }
+}
+
+/// How a galpixel of a layout is stored under a budget.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Record {
+    fields: [Field; FIELDS],
+    words: u8,
+    bits: u16,
+    layout: Layout,
+    /// Arithmetic in x, y and depth.
+    pub scales: [Scale; 3],
+    /// Fraction bits of the luminosity.
+    pub luminosity_frac: u32,
+}
+
+macro_rules! field_getters {
+    ($($(#[$doc:meta])* $name:ident = $index:expr;)*) => {$(
+        $(#[$doc])*
+        #[inline(always)]
+        #[must_use]
+        pub const fn $name(&self) -> Field {
+            self.fields[$index]
+        }
+    )*};
+}
+
+impl Record {
+    /// Lays out the fields of a layout under a budget.
+    ///
+    /// *Errors:* lanes that lack their base, a component that [`Component::checked`] refuses, a depth field that cannot
+    /// hold its bins, a field wider than a word, more than [`MAX_WORDS`] words.
+    pub const fn plan(bits: Bits, layout: Layout) -> Result<Self, BudgetError> {
+        if (layout.acceleration && !layout.velocity)
+            || (layout.depth_motion && (layout.depth_bits == 0 || !layout.velocity))
+        {
+            return Err(BudgetError::FieldWithoutItsBase);
+        }
+        if let Err(error) = check_components(bits, layout) {
+            return Err(error);
+        }
+        let depth_bits = layout.depth_bits + if layout.depth_motion { bits.z.position_frac } else { 0 };
+        if layout.depth_motion && depth_bits < bits.depth_int {
+            return Err(BudgetError::DepthTooCoarse { bits: depth_bits, needed: bits.depth_int });
+        }
+        if depth_bits > 28 {
+            return Err(BudgetError::FieldTooWide { bits: depth_bits, most: 28 });
+        }
+        let z_frac = depth_bits.saturating_sub(bits.depth_int);
+        let scales = [
+            Scale::new(bits.x, bits.x.position_frac),
+            Scale::new(bits.y, bits.y.position_frac),
+            Scale::new(bits.z, z_frac),
+        ];
+        if layout.depth_motion {
+            let widest = bits.z.velocity_bits() + scales[2].up;
+            let widest = if bits.z.acceleration_bits() + scales[2].acceleration_up + scales[2].up > widest {
+                bits.z.acceleration_bits() + scales[2].acceleration_up + scales[2].up
+            } else {
+                widest
+            };
+            if widest > WIDEST_FIELD {
+                return Err(BudgetError::FieldTooWide { bits: widest, most: WIDEST_FIELD });
+            }
+            if let Err(error) = bits.z.dropped_bits_checked(z_frac) {
+                return Err(error);
+            }
+        }
+        if layout.acceleration
+            && !(bits.x.has_acceleration()
+                && bits.y.has_acceleration()
+                && (!layout.depth_motion || bits.z.has_acceleration()))
+        {
+            return Err(BudgetError::AccelerationVanishes { integer_bits: 0 });
+        }
+
+        let mut widths = [0u32; FIELDS];
+        widths[CLASS] = 2;
+        widths[DEPTH] = depth_bits;
+        widths[COLOUR] = layout.colour.bits();
+        widths[TAG] = layout.tag_bits;
+        if layout.velocity {
+            let components = [bits.x, bits.y, bits.z];
+            let mut i = 0;
+            while i < if layout.depth_motion { 3 } else { 2 } {
+                widths[VELOCITY[i]] = components[i].velocity_bits();
+                if layout.acceleration {
+                    widths[ACCELERATION[i]] = components[i].acceleration_bits();
+                }
+                if i < 2 {
+                    widths[OFFSET[i]] = components[i].position_frac;
+                }
+                i += 1;
+            }
+        }
+        if layout.luminosity {
+            widths[LUMINOSITY_RATE] = bits.luminosity_int + bits.luminosity_frac;
+            widths[LUMINOSITY] = bits.luminosity_frac;
+        }
+        match pack(widths) {
+            Ok((fields, words, total)) => {
+                Ok(Self { fields, words, bits: total, layout, scales, luminosity_frac: bits.luminosity_frac })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// For constants: the record, or a compile error with the reason.
+    #[must_use]
+    pub const fn must(record: Result<Self, BudgetError>) -> Self {
+        match record {
+            Ok(record) => record,
+            Err(BudgetError::DepthTooCoarse { .. }) => {
+                panic!("layout: the depth field cannot hold its bins: use more depth bits")
+            }
+            Err(BudgetError::RecordTooLong { .. }) => {
+                panic!("layout: a galpixel of more than 256 bits: leave lanes out")
+            }
+            Err(BudgetError::FieldWithoutItsBase) => {
+                panic!("layout: acceleration needs velocity, depth motion needs depth")
+            }
+            Err(_) => panic!("layout: this budget does not fit these lanes"),
+        }
+    }
+
+    /// Words of a stored galpixel.
+    #[inline(always)]
+    #[must_use]
+    pub const fn words(&self) -> usize {
+        self.words as usize
+    }
+
+    /// Bytes of a stored galpixel.
+    #[must_use]
+    pub const fn bytes(&self) -> usize {
+        self.words as usize * 4
+    }
+
+    /// Bits in use of a stored galpixel.
+    #[must_use]
+    pub const fn bits(&self) -> u32 {
+        self.bits as u32
+    }
+
+    /// Returns which fields there are.
+    #[inline(always)]
+    #[must_use]
+    pub const fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Returns how a colour is stored.
+    #[inline(always)]
+    #[must_use]
+    pub const fn colour_format(&self) -> &Colour {
+        &self.layout.colour
+    }
+
+    field_getters! {
+        /// Empty, galpixel, debris or just unobscured.
+        class = CLASS;
+        /// The z-buffer with its fraction: smaller is nearer.
+        depth = DEPTH;
+        /// Fraction of the position along the row, from the cell's centre.
+        offset_x = OFFSET[0];
+        /// Fraction of the position along the column, from the cell's centre.
+        offset_y = OFFSET[1];
+        /// The colour word.
+        colour = COLOUR;
+        /// The object's tag.
+        tag = TAG;
+        /// Steps of luminosity a frame.
+        luminosity_rate = LUMINOSITY_RATE;
+        /// Fraction of the luminosity.
+        luminosity = LUMINOSITY;
+    }
+
+    /// Fraction of the position in x (0) or y (1), from the cell's centre.
+    #[inline(always)]
+    pub(crate) const fn offset(&self, component: usize) -> Field {
+        self.fields[OFFSET[component]]
+    }
+
+    /// Class and depth as one number, as a field, where they stand side by side.
+    #[inline(always)]
+    pub(crate) const fn key_field(&self) -> Option<Field> {
+        let (class, depth) = (self.class(), self.depth());
+        if class.word == depth.word && class.shift == depth.shift + depth.bits && depth.spill == 0 && depth.bits != 0 {
+            Some(Field { bits: class.bits + depth.bits, ..depth })
+        } else {
+            None
+        }
+    }
+
+    /// The velocity in x (0), y (1) or depth (2).
+    #[inline(always)]
+    #[must_use]
+    pub const fn velocity(&self, component: usize) -> Field {
+        self.fields[VELOCITY[component]]
+    }
+
+    /// The acceleration in x (0), y (1) or depth (2).
+    #[inline(always)]
+    #[must_use]
+    pub const fn acceleration(&self, component: usize) -> Field {
+        self.fields[ACCELERATION[component]]
+    }
+}
+
+/// Checks the widths that a layout uses; they may have been written by hand.
+const fn check_components(bits: Bits, layout: Layout) -> Result<(), BudgetError> {
+    let components = [bits.x, bits.y, bits.z];
+    let used = match (layout.velocity, layout.depth_motion) {
+        (_, true) => 3,
+        (true, false) => 2,
+        (false, false) => 0,
+    };
+    let mut i = 0;
+    while i < used {
+        if let Err(error) = components[i].checked() {
+            return Err(error);
+        }
+        i += 1;
+    }
+    let luminosity = bits.luminosity_int.saturating_add(bits.luminosity_frac);
+    if layout.luminosity && luminosity > WIDEST_FIELD {
+        return Err(BudgetError::FieldTooWide { bits: luminosity, most: WIDEST_FIELD });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

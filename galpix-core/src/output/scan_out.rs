@@ -1,0 +1,193 @@
+//! Stage 6: rows of colour for a display. No arithmetic.
+//!
+//! [`row`] is the native path, for scanline engines and DMA: colour words of one row, in order. With the feature
+//! `embedded-graphics`, a [`View`] of the whole display or of a band of its rows is an `ImageDrawable`, and any
+//! `DrawTarget` is a display; it receives contiguous rows, never single pixels. What is pinned over the picture joins here,
+//! see [`crate::output::overlay`].
+
+use crate::format::Format;
+use crate::map::Galpixmap;
+
+/// The colour words of row `y` of the display (margin left out), from left to right; nothing below the display.
+pub fn row<'m, F: Format>(map: &'m Galpixmap<'_, F>, y: u32) -> impl ExactSizeIterator<Item = u32> + 'm {
+    span(map, y, 0, map.grid().display_width())
+}
+
+/// What lies over a map on the display: [`Bare`], or a reference to an [`crate::output::overlay::Overlay`].
+pub trait Over: Copy {
+    /// The colour words of `width` columns from `x` on of row `y` of the display; fewer where the display ends.
+    fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32>;
+}
+
+/// Nothing lies over the map.
+#[derive(Clone, Copy, Debug)]
+pub struct Bare;
+
+impl Over for Bare {
+    #[inline(always)]
+    fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32> {
+        span(map, y, x, width)
+    }
+}
+
+/// The colour words of `width` columns from `x` on of row `y` of the display; fewer where the display ends.
+pub(crate) fn span<'m, F: Format>(
+    map: &'m Galpixmap<'_, F>,
+    y: u32,
+    x: u32,
+    width: u32,
+) -> impl ExactSizeIterator<Item = u32> + 'm {
+    let grid = map.grid();
+    let field = map.record().colour();
+    let left = x.min(grid.display_width());
+    let width = width.min(grid.display_width() - left) as usize;
+    let start = if y < grid.display_height() { grid.row((y + grid.margin().top) as i32) } else { None };
+    let plane = |word: usize| match (start, map.planes().get(word)) {
+        (Some(start), Some(plane)) => {
+            plane.get((start + grid.margin().left + left) as usize..).and_then(|rest| rest.get(..width)).unwrap_or(&[])
+        }
+        _ => &[],
+    };
+    let ((upper, lower), extract) = (field.words(), field.extract());
+    plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.unsigned(upper, lower))
+}
+
+#[cfg(feature = "embedded-graphics")]
+pub use panel::{PanelColour, View};
+
+#[cfg(feature = "embedded-graphics")]
+mod panel {
+    use core::marker::PhantomData;
+
+    use embedded_graphics_core::draw_target::DrawTarget;
+    use embedded_graphics_core::geometry::{OriginDimensions, Point, Size};
+    use embedded_graphics_core::image::ImageDrawable;
+    use embedded_graphics_core::pixelcolor::{
+        self, IntoStorage, PixelColor, raw::RawU4, raw::RawU8, raw::RawU16, raw::RawU24,
+    };
+    use embedded_graphics_core::primitives::Rectangle;
+
+    use crate::format::Format;
+    use crate::format::colour::Colour;
+    use crate::map::Galpixmap;
+    use crate::output::overlay::Overlay;
+
+    use super::{Bare, Over};
+
+    /// A pixel of a panel whose stored form is a colour format.
+    pub trait PanelColour: PixelColor {
+        /// The colour format.
+        const FORMAT: Colour;
+
+        /// Returns the pixel of a colour word of [`Self::FORMAT`].
+        fn of_word(word: u32) -> Self;
+
+        /// Returns the colour word of [`Self::FORMAT`].
+        fn word(self) -> u32;
+
+        /// Returns the pixel of a colour word of any format.
+        #[inline(always)]
+        fn of(format: &Colour, word: u32) -> Self {
+            let same = *format == Self::FORMAT;
+            Self::of_word(if same { word } else { Self::FORMAT.from_rgb888(format.to_rgb888(word)) })
+        }
+
+        /// Returns the colour word of any format.
+        #[inline(always)]
+        fn word_in(self, format: &Colour) -> u32 {
+            let same = *format == Self::FORMAT;
+            if same { self.word() } else { format.from_rgb888(Self::FORMAT.to_rgb888(self.word())) }
+        }
+    }
+
+    macro_rules! panel_colours {
+        ($($pixel:ident: $format:ident, $raw:ident, $word:ty;)*) => {$(
+            impl PanelColour for pixelcolor::$pixel {
+                const FORMAT: Colour = Colour::$format;
+
+                #[inline(always)]
+                fn of_word(word: u32) -> Self {
+                    $raw::new(word as $word).into()
+                }
+
+                #[inline(always)]
+                fn word(self) -> u32 {
+                    self.into_storage().into()
+                }
+            }
+        )*};
+    }
+
+    panel_colours! {
+        Rgb888: RGB888, RawU24, u32;
+        Rgb565: RGB565, RawU16, u16;
+        Gray8: GRAY8, RawU8, u8;
+        Gray4: GRAY4, RawU4, u8;
+    }
+
+    /// The display's part of a map, or a band of its rows, and what lies over it.
+    ///
+    /// `C` is the panel's pixel; maps of another colour format are converted by 8-bit red, green and blue.
+    #[derive(Debug)]
+    pub struct View<'m, 'p, F, C, O = Bare> {
+        map: &'m Galpixmap<'p, F>,
+        over: O,
+        pixel: PhantomData<C>,
+        top: u32,
+        rows: u32,
+    }
+
+    impl<'m, 'p, F: Format, C: PanelColour> View<'m, 'p, F, C> {
+        /// The whole display.
+        #[must_use]
+        pub fn new(map: &'m Galpixmap<'p, F>) -> Self {
+            Self { map, over: Bare, pixel: PhantomData, top: 0, rows: map.grid().display_height() }
+        }
+
+        /// At most `rows` rows of the display from row `top` on; fewer at its end. Draw it at `(0, top)`.
+        #[must_use]
+        pub fn band(map: &'m Galpixmap<'p, F>, top: u32, rows: u32) -> Self {
+            let top = top.min(map.grid().display_height());
+            Self { map, over: Bare, pixel: PhantomData, top, rows: rows.min(map.grid().display_height() - top) }
+        }
+
+        /// The same under an overlay.
+        #[must_use]
+        pub fn under<'o, 'q>(self, overlay: &'o Overlay<'q>) -> View<'m, 'p, F, C, &'o Overlay<'q>> {
+            View { map: self.map, over: overlay, pixel: PhantomData, top: self.top, rows: self.rows }
+        }
+    }
+
+    impl<F: Format, C, O> OriginDimensions for View<'_, '_, F, C, O> {
+        fn size(&self) -> Size {
+            Size::new(self.map.grid().display_width(), self.rows)
+        }
+    }
+
+    impl<F: Format, C: PanelColour, O: Over> ImageDrawable for View<'_, '_, F, C, O> {
+        type Color = C;
+
+        fn draw<D: DrawTarget<Color = Self::Color>>(&self, target: &mut D) -> Result<(), D::Error> {
+            self.draw_sub_image(target, &Rectangle::new(Point::zero(), self.size()))
+        }
+
+        fn draw_sub_image<D: DrawTarget<Color = Self::Color>>(
+            &self,
+            target: &mut D,
+            area: &Rectangle,
+        ) -> Result<(), D::Error> {
+            let inside = area.intersection(&Rectangle::new(Point::zero(), self.size()));
+            let (left, width) = (inside.top_left.x.max(0) as u32, inside.size.width);
+            let first = self.top + inside.top_left.y.max(0) as u32;
+            // Drawn from the target's origin on, as the trait asks.
+            let place = Rectangle::new(inside.top_left - area.top_left, inside.size);
+            let format = *self.map.record().colour_format();
+            let row = |y: u32| self.over.span(self.map, y, left, width).map(move |word| C::of(&format, word));
+            if inside.size.height == 1 {
+                // A row alone goes out without the bookkeeping of several.
+                return target.fill_contiguous(&place, row(first));
+            }
+            target.fill_contiguous(&place, (first..first + inside.size.height).flat_map(row))
+        }
+    }
+}
