@@ -15,8 +15,8 @@ mod smallest;
 #[cfg(test)]
 mod tests;
 
+use galpix_core::Rounding;
 use galpix_core::record::Scale;
-use galpix_core::rounding::Rounding;
 use serde::Serialize;
 
 use drift::Drift;

@@ -22,7 +22,7 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
-use galpix_core::budget::Bits;
+use galpix_core::Bits;
 
 use crate::experiment::{self, ExperimentError, Request, Source};
 

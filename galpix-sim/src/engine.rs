@@ -9,21 +9,15 @@ mod show;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use galpix_core::budget::Bits;
-use galpix_core::error::{BudgetError, SetupError};
-use galpix_core::frame::{Settings, Work};
-use galpix_core::galpixel::Chosen;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings as CoreWings};
 use galpix_core::layers::{Layer, Layers};
-use galpix_core::layout::{Lanes, Layout};
 use galpix_core::overlay::{self, Overlay};
-use galpix_core::scan_out;
-use galpix_core::tally::Tally;
+use galpix_core::{
+    BudgetError, Dynamic, Galpixmap, Grid, Margin, Settings, SetupError, Tally, scan_out,
+};
 
 pub use hidden::Beside;
 pub use load::{LoadTally, galpixel, load};
-pub(crate) use load::{core_wings, grid};
+pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
 pub use show::Show;
 
@@ -75,55 +69,56 @@ pub struct Ran {
 }
 
 /// One frame as the display shows it, and what is known about it.
-pub struct Frame<'f, L: Layout> {
+pub struct Frame<'f> {
     /// Frames since the update.
     pub number: u32,
     /// What the engine counted; all zero for the update itself.
     pub tally: Tally,
     /// The processor time of the engine's own work: what else runs on the machine does not count.
     pub time: Duration,
-    map: &'f Galpixmap<'f, L, Chosen<L>>,
-    overlay: Option<&'f Overlay<'f, L::Colour>>,
+    map: &'f Galpixmap<'f, Dynamic>,
+    overlay: Option<&'f Overlay<'f>>,
     origins: &'f [u32],
 }
 
 /// The engine over owned memory.
-pub struct Engine<L> {
-    budget: Chosen<L>,
+pub struct Engine {
+    format: Dynamic,
     settings: Settings,
     inpaint: Option<Inpaint>,
+    constant_time: bool,
 }
 
-impl<L: Layout> Engine<L> {
-    /// An engine for a budget.
-    ///
-    /// *Errors:* a budget that does not fit the layout.
-    pub fn new(bits: Bits, settings: Settings) -> Result<Self, EngineError> {
-        Ok(Self { budget: Chosen::new(bits)?, settings, inpaint: None })
-    }
+/// An update, and the layers beside it, the first of which is layer 1.
+#[derive(Clone, Copy)]
+struct Delivered<'u> {
+    update: &'u Update,
+    beside: &'u [Beside<'u>],
+}
 
-    /// An engine for a budget that keeps only a part of the layout's lanes, see [`Chosen::with_lanes`].
-    ///
-    /// *Errors:* lanes that the layout lacks, a budget that does not fit them.
-    pub fn with_lanes(bits: Bits, lanes: Lanes, settings: Settings) -> Result<Self, EngineError> {
-        Ok(Self { budget: Chosen::with_lanes(bits, lanes)?, settings, inpaint: None })
-    }
-
-    /// The same with inpainting after each frame; its rung should be [`crate::fill::Fill::rung`]'s.
+impl Engine {
+    /// Makes an engine for maps of a format.
     #[must_use]
-    pub fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
+    pub const fn new(format: Dynamic, settings: Settings) -> Self {
+        Self { format, settings, inpaint: None, constant_time: false }
+    }
+
+    /// The same with inpainting after each frame; its fill mode should be [`crate::fill::Fill::rung`]'s.
+    #[must_use]
+    pub const fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
         Self { inpaint, ..self }
+    }
+
+    /// The same by instructions that do not depend on the picture, if `constant_time`.
+    #[must_use]
+    pub const fn constant_time(self, constant_time: bool) -> Self {
+        Self { constant_time, ..self }
     }
 
     /// Extrapolates an update by `frames` frames; `visit` sees the update itself (frame 0) and every frame.
     ///
     /// *Errors:* an update that cannot be laid out.
-    pub fn run(
-        &self,
-        update: &Update,
-        frames: u32,
-        visit: impl FnMut(&Frame<'_, L>),
-    ) -> Result<LoadTally, EngineError> {
+    pub fn run(&self, update: &Update, frames: u32, visit: impl FnMut(&Frame<'_>)) -> Result<LoadTally, EngineError> {
         Ok(self.run_layers(update, &[], frames, visit)?.loaded)
     }
 
@@ -135,7 +130,7 @@ impl<L: Layout> Engine<L> {
         update: &Update,
         beside: &[Beside<'_>],
         frames: u32,
-        mut visit: impl FnMut(&Frame<'_, L>),
+        mut visit: impl FnMut(&Frame<'_>),
     ) -> Result<Ran, EngineError> {
         let of = [update.width, update.height];
         let size = |update: &Update| [update.width, update.height];
@@ -144,66 +139,49 @@ impl<L: Layout> Engine<L> {
         {
             return Err(EngineError::LayerSize { width: other.width, height: other.height, of });
         }
-        // As few numbers of layers as times can tell apart; each is compiled on its own.
-        match beside.len() {
-            0 => self.run_one(update, frames, &mut visit),
-            1 => self.run_several::<1>(update, beside, frames, &mut visit),
-            2 => self.run_several::<2>(update, beside, frames, &mut visit),
-            3..=MAX_BESIDE => self.run_several::<MAX_BESIDE>(update, beside, frames, &mut visit),
-            more => Err(EngineError::TooManyLayers(more)),
+        if beside.len() > MAX_BESIDE {
+            return Err(EngineError::TooManyLayers(beside.len()));
         }
-    }
-
-    fn run_one(&self, update: &Update, frames: u32, visit: Visit<'_, L>) -> Result<Ran, EngineError> {
-        let mut memory = Base::new(update, self.budget)?;
-        let mut controller = memory.controller(update, self.budget)?;
-        let loaded = load(update, controller.front_mut());
-        let used = self.frames(controller, update, &[], frames, visit)?;
-        Ok(Ran { loaded, beside: Vec::new(), used })
-    }
-
-    fn run_several<const HIDDEN: usize>(
-        &self,
-        update: &Update,
-        beside: &[Beside<'_>],
-        frames: u32,
-        visit: Visit<'_, L>,
-    ) -> Result<Ran, EngineError> {
-        let mut memory = Base::new(update, self.budget)?;
+        let delivered = Delivered { update, beside };
+        let mut memory = Base::new(update, self.format)?;
+        if beside.is_empty() {
+            let mut controller = memory.controller(update, self.format)?;
+            let loaded = load(update, controller.front_mut());
+            let used = self.frames(controller, delivered, frames, &mut visit)?;
+            return Ok(Ran { loaded, beside: Vec::new(), used });
+        }
         let mut starts = memory.starts.clone();
         let grid = grid(update, &mut starts)?;
-        let mut own: [hidden::Memory; HIDDEN] =
-            std::array::from_fn(|layer| hidden::Memory::new::<L, _>(&grid, self.budget, beside.get(layer)));
-        let base = memory.controller(update, self.budget)?;
-        let hidden: Vec<Layer<'_, L, _>> =
-            own.iter_mut().map(|memory| memory.layer(grid, self.budget)).collect::<Result<_, _>>()?;
-        // There are as many as there is memory for.
-        let Ok(hidden) = <[_; HIDDEN]>::try_from(hidden) else { return Err(EngineError::TooManyLayers(beside.len())) };
-        let mut layers = Layers::new(base, hidden)?;
+        let mut own: Vec<hidden::Memory> =
+            beside.iter().map(|beside| hidden::Memory::new(&grid, self.format, beside)).collect();
+        let base = memory.controller(update, self.format)?;
+        let mut hidden: Vec<Layer<'_, Dynamic>> =
+            own.iter_mut().map(|memory| memory.layer(grid, self.format)).collect::<Result<_, _>>()?;
+        let mut layers = Layers::new(base, &mut hidden)?;
         let loaded = layers.layer_mut(0).map(|map| load(update, map)).unwrap_or_default();
         let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
         let loaded_beside = (1..).zip(beside).filter_map(store).collect();
-        layers.resolve(Work::Skipping);
-        let used = self.frames(layers, update, beside, frames, visit)?;
+        layers.composite();
+        let used = self.frames(layers, delivered, frames, &mut visit)?;
         Ok(Ran { loaded, beside: loaded_beside, used })
     }
 
     /// Shows the update and `frames` frames; returns which samples were ever shown.
     fn frames<'p>(
         &self,
-        mut show: impl Show<'p, L, Chosen<L>>,
-        update: &Update,
-        beside: &[Beside<'_>],
+        mut show: impl Show<'p, Dynamic>,
+        Delivered { update, beside }: Delivered<'_>,
         frames: u32,
-        visit: Visit<'_, L>,
+        visit: Visit<'_>,
     ) -> Result<Vec<bool>, EngineError> {
         let grid = *show.front().grid();
-        let mut rows = vec![0; Grid::rows(grid.display_height(), CoreWings::NONE)];
-        let display = Grid::new(grid.display_width(), grid.display_height(), CoreWings::NONE, &mut rows)?;
-        let mut pinned = vec![0; if update.overlay.is_some() { Overlay::<L::Colour>::words(&display) } else { 0 }];
+        let colour = *show.front().record().colour_format();
+        let mut rows = vec![0; Grid::rows(grid.display_height(), Margin::NONE)];
+        let display = Grid::new(grid.display_width(), grid.display_height(), Margin::NONE, &mut rows)?;
+        let mut pinned = vec![0; if update.overlay.is_some() { Overlay::words(&display) } else { 0 }];
         let overlay = match &update.overlay {
             Some(given) => {
-                let mut overlay = Overlay::new(display, &mut pinned)?;
+                let mut overlay = Overlay::new(display, colour, &mut pinned)?;
                 given.pin(&mut overlay);
                 Some(overlay)
             }
@@ -217,7 +195,11 @@ impl<L: Layout> Engine<L> {
         for number in 0..=frames {
             if number > 0 {
                 let started = ThreadTime::now();
-                tally = show.step(&self.settings);
+                tally = if self.constant_time {
+                    show.step_constant_time(&self.settings)
+                } else {
+                    show.step(&self.settings)
+                };
                 if let Some(inpainter) = &mut inpainter {
                     inpainter.paint(&mut show, &self.settings);
                 }
@@ -231,13 +213,12 @@ impl<L: Layout> Engine<L> {
     }
 }
 
-type Visit<'v, L> = &'v mut dyn FnMut(&Frame<'_, L>);
+type Visit<'v> = &'v mut dyn FnMut(&Frame<'_>);
 
-impl<L: Layout> Frame<'_, L> {
+impl Frame<'_> {
     /// What the display shows.
     #[must_use]
     pub fn picture(&self) -> Picture {
-        use galpix_core::colour::Colour;
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
         let rows = 0..height as u32;
@@ -245,7 +226,8 @@ impl<L: Layout> Frame<'_, L> {
             Some(overlay) => rows.flat_map(|y| overlay::row(self.map, overlay, y)).collect(),
             None => rows.flat_map(|y| scan_out::row(self.map, y)).collect(),
         };
-        let pixels = words.into_iter().map(L::Colour::to_rgb888).collect();
+        let colour = self.map.record().colour_format();
+        let pixels = words.into_iter().map(|word| colour.to_rgb888(word)).collect();
         Picture { width, height, pixels }
     }
 
@@ -268,7 +250,7 @@ impl<L: Layout> Frame<'_, L> {
 
     /// The map.
     #[must_use]
-    pub fn map(&self) -> &Galpixmap<'_, L, Chosen<L>> {
+    pub fn map(&self) -> &Galpixmap<'_, Dynamic> {
         self.map
     }
 
@@ -290,8 +272,8 @@ impl<L: Layout> Frame<'_, L> {
 
 /// The cells of the display, row by row.
 fn display_cells(grid: &Grid<'_>) -> impl Iterator<Item = u32> {
-    let wings = grid.wings();
+    let margin = grid.margin();
     let (width, height) = (grid.display_width(), grid.display_height());
-    let cell = move |x: u32, y: u32| grid.cell((x + wings.left) as i32, (y + wings.top) as i32);
+    let cell = move |x: u32, y: u32| grid.cell((x + margin.left) as i32, (y + margin.top) as i32);
     (0..height).flat_map(move |y| (0..width).filter_map(move |x| cell(x, y)))
 }

@@ -6,16 +6,8 @@ mod work;
 
 use std::path::Path;
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::colour::Colour;
-use galpix_core::edge;
-use galpix_core::error::BudgetError;
-use galpix_core::frame::{Settings, Work};
-use galpix_core::galpixel::Chosen;
-use galpix_core::layout::{Full, Layout, Shaded};
-use galpix_core::record::Record;
-use galpix_core::rounding::Rounding;
-use galpix_core::tally::Tally;
+use galpix_core::stages::{threshold_for_depth, threshold_for_speed};
+use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Record, Rounding, Settings, Tally};
 
 pub use compare::compare;
 pub(crate) use compare::position;
@@ -208,33 +200,20 @@ pub fn demand(update: &Update, frames: u32, request: &Request) -> Demand {
 /// Runs a source and compares every frame whose truth is known; `visit` sees each frame.
 ///
 /// *Errors:* a budget that cannot exist or that does not fit.
-pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) -> Result<RunReport, ExperimentError> {
-    let update = source.update();
-    if needs_luminosity(&update) {
-        run_as::<Shaded>(source, &update, request, visit)
-    } else {
-        run_as::<Full>(source, &update, request, visit)
-    }
-}
-
-/// Whether any galpixel of an update brightens or darkens.
-pub(crate) fn needs_luminosity(update: &Update) -> bool {
-    update.samples.iter().any(|sample| sample.luminosity_rate != 0.0)
-}
-
-fn run_as<L: Layout>(
+pub fn run(
     source: &Source,
-    update: &Update,
     request: &Request,
     mut visit: impl FnMut(&Shown<'_>),
 ) -> Result<RunReport, ExperimentError> {
+    let update = source.update();
     let frames = request.frames.unwrap_or(source.frames());
-    let demand = demand(update, frames, request);
+    let demand = demand(&update, frames, request);
     let bits = Bits::derive(demand)?;
-    let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
-    let settings = settings(&record, update.depth_kind, request);
-    let engine = Engine::<L>::new(bits, settings)?.inpainting(request.fill.inpaint());
-    let carried = carried::<L>(source, update, request.way, bits, frames)?;
+    let layout = layout_for(&update);
+    let format = Dynamic::new(bits, layout)?;
+    let settings = settings(format.record(), update.depth_kind, request);
+    let engine = Engine::new(format, settings).inpainting(request.fill.inpaint());
+    let carried = carried(source, &update, request.way, format, frames)?;
     let beside: Vec<Beside<'_>> = carried.layers.iter().map(hidden::Layer::beside).collect();
     let hold = update.picture();
     let mut reports = Vec::with_capacity(frames as usize);
@@ -245,7 +224,7 @@ fn run_as<L: Layout>(
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
             let truth = truth.map(|truth| compare(&picture, &hold, &truth, &reached, request.perceptual));
-            let position = compare::position(source, update, frame, |origin| carried.first(origin));
+            let position = compare::position(source, &update, frame, |origin| carried.first(origin));
             let report = report(frame, position, truth);
             let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;
             let from_hidden = (request.way != Way::ONE).then(hidden);
@@ -258,7 +237,7 @@ fn run_as<L: Layout>(
         source: source.name().to_owned(),
         width: update.display_width(),
         height: update.display_height(),
-        budget: BudgetReport::of::<L>(demand, bits)?,
+        budget: BudgetReport::of(demand, bits, format.record()),
         rounding: request.rounding.name(),
         fill: request.fill.name(),
         edge_threshold: settings.edge_threshold,
@@ -266,9 +245,15 @@ fn run_as<L: Layout>(
         loaded: ran.loaded,
         hidden: (request.way != Way::ONE).then(|| HiddenReport::of(request.way, &carried, &ran)),
         census: source.census().cloned(),
-        certificate: Certificate::of(&record.scales[0], L::LANES.acceleration, request.rounding, demand.prop),
+        certificate: Certificate::of(&format.record().scales[0], layout.acceleration, request.rounding, demand.prop),
         frames: reports,
     })
+}
+
+/// Returns what the galpixels of an update carry: shading inertia only where any of them brightens or darkens.
+pub(crate) fn layout_for(update: &Update) -> Layout {
+    let shaded = update.samples.iter().any(|sample| sample.luminosity_rate != 0.0);
+    if shaded { Layout::SHADED } else { Layout::FULL }
 }
 
 /// Whether a source has what is wanted behind its first layer.
@@ -287,41 +272,36 @@ pub fn check_way(source: &Source, way: Way) -> Result<(), ExperimentError> {
 
 /// What a source hands over.
 ///
-/// *Errors:* a source that has nothing of this kind, a budget that does not fit.
-pub(crate) fn carried<L: Layout>(
+/// *Errors:* a source that has nothing of this kind.
+pub(crate) fn carried(
     source: &Source,
     update: &Update,
     way: Way,
-    bits: Bits,
+    format: Dynamic,
     frames: u32,
 ) -> Result<Carried, ExperimentError> {
     check_way(source, way)?;
-    Ok(hidden::carry(source, update, way, Chosen::<L>::new(bits)?, frames)?)
+    Ok(hidden::carry(source, update, way, format, frames)?)
 }
 
 /// How the frames of an update are made under a record.
 pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request) -> Settings {
     let depth_bits = u32::from(record.depth().bits);
     let by_kind = match depth_kind {
-        DepthKind::Z | DepthKind::Disparity => edge::threshold_for_depth(depth_bits),
-        DepthKind::Speed => edge::threshold_for_speed(depth_bits),
+        DepthKind::Z | DepthKind::Disparity => threshold_for_depth(depth_bits),
+        DepthKind::Speed => threshold_for_speed(depth_bits),
     };
     let edge_threshold =
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
     Settings {
         rounding: request.rounding,
-        rung: request.fill.rung(),
+        fill_mode: request.fill.rung(),
         edge_threshold,
         reach: request.reach,
-        work: Work::default(),
     }
 }
 
-fn report<L: Layout>(
-    frame: &Frame<'_, L>,
-    position: Option<PositionReport>,
-    truth: Option<TruthReport>,
-) -> FrameReport {
+fn report(frame: &Frame<'_>, position: Option<PositionReport>, truth: Option<TruthReport>) -> FrameReport {
     let Tally { moved, lost, collided, saturated, edges, holes, bullets, debris, galdebris, .. } = frame.tally;
     FrameReport {
         frame: frame.number,

@@ -1,6 +1,6 @@
 //! What is put into holes, as the command line means it: a rung of the core's ladder, or inpainting on top of its richest one.
 
-use galpix_core::fill::Rung;
+use galpix_core::FillMode;
 
 pub use self::stage::Inpainter;
 pub use galpix_core::inpaint::validity::Gamma;
@@ -50,19 +50,19 @@ impl Inpaint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fill {
     /// What the core's ladder puts there.
-    Rung(Rung),
+    Rung(FillMode),
     /// What the richest rung puts there, inpainted in the frame in which the hole opens.
     Inpaint(Inpaint),
 }
 
 impl Default for Fill {
     fn default() -> Self {
-        Self::Rung(Rung::default())
+        Self::Rung(FillMode::default())
     }
 }
 
-impl From<Rung> for Fill {
-    fn from(rung: Rung) -> Self {
+impl From<FillMode> for Fill {
+    fn from(rung: FillMode) -> Self {
         Self::Rung(rung)
     }
 }
@@ -78,7 +78,7 @@ impl Fill {
     #[must_use]
     pub fn all() -> Vec<Self> {
         let inpainted = Kind::ALL.map(Self::from);
-        Rung::ALL.into_iter().map(Self::from).chain(inpainted).collect()
+        FillMode::ALL.into_iter().map(Self::from).chain(inpainted).collect()
     }
 
     /// The name on the command line and in JSON.
@@ -93,10 +93,10 @@ impl Fill {
 
     /// The rung of the core's ladder that a frame is made with.
     #[must_use]
-    pub const fn rung(self) -> Rung {
+    pub const fn rung(self) -> FillMode {
         match self {
             Self::Rung(rung) => rung,
-            Self::Inpaint(_) => Rung::Extend,
+            Self::Inpaint(_) => FillMode::Extend,
         }
     }
 
@@ -136,8 +136,8 @@ mod tests {
         let names: std::collections::HashSet<&str> = Fill::all().into_iter().map(Fill::name).collect();
         assert_eq!(names.len(), 6 + Kind::ALL.len());
         for fill in Fill::all() {
-            assert_eq!(fill.inpaint().is_some(), !Rung::ALL.iter().any(|rung| rung.name() == fill.name()));
-            assert!(fill.inpaint().is_none() || fill.rung() == Rung::Extend);
+            assert_eq!(fill.inpaint().is_some(), !FillMode::ALL.iter().any(|rung| rung.name() == fill.name()));
+            assert!(fill.inpaint().is_none() || fill.rung() == FillMode::Extend);
         }
     }
 }

@@ -10,7 +10,7 @@
 //!
 //! *Units:* positions of the source in its pixels, (0, 0) the centre of the display's first pixel.
 
-use galpix_core::galpixel::Galpixel;
+use galpix_core::Galpixel;
 use rayon::prelude::*;
 
 use crate::engine;

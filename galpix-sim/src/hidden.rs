@@ -10,8 +10,7 @@ mod layer;
 mod offered;
 mod surfaces;
 
-use galpix_core::galpixel::Chosen;
-use galpix_core::layout::Layout;
+use galpix_core::Dynamic;
 use serde::Serialize;
 
 pub use cull::{Culling, culling};
@@ -157,19 +156,19 @@ pub fn has(source: &Source, kind: Kind) -> bool {
     }
 }
 
-/// What a source hands over in a way, for `frames` frames until the next update, quantised to a budget: the first layer alone if it has
+/// What a source hands over in a way, for `frames` frames until the next update, quantised to a format: the first layer alone if it has
 /// nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
-pub fn carry<L: Layout>(
+pub fn carry(
     source: &Source,
     update: &Update,
     way: Way,
-    budget: Chosen<L>,
+    format: Dynamic,
     frames: u32,
 ) -> Result<Carried, EngineError> {
     let layers = offered::offered(source, way.kind)?;
-    let culling = if way.culled && !layers.is_empty() { Some(culling(update, budget, frames)?) } else { None };
+    let culling = if way.culled && !layers.is_empty() { Some(culling(update, format, frames)?) } else { None };
     Ok(match way.kind {
         Kind::Unlimited if !layers.is_empty() => arrange::unlimited(update, layers, culling),
         _ => arrange::arranged(update, layers, way.arrangement, culling),

@@ -30,4 +30,6 @@ pub mod send;
 pub mod stability;
 pub mod tradeoff;
 pub mod update;
-pub mod vectors;
+
+pub use galpix_vectors as vectors;
+

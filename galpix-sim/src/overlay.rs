@@ -1,6 +1,5 @@
 //! What is pinned over the picture, as a renderer or a capture delivers it: apart from the picture, so that it never moves.
 
-use galpix_core::colour::Colour;
 use galpix_core::overlay;
 
 use crate::picture::Picture;
@@ -40,7 +39,7 @@ impl Overlay {
     }
 
     /// Pins the same in the core's form, whose size must be this one's.
-    pub fn pin<C: Colour>(&self, to: &mut overlay::Overlay<'_, C>) {
+    pub fn pin(&self, to: &mut overlay::Overlay<'_>) {
         for (y, row) in (0..).zip(self.pixels.chunks(self.width.max(1))) {
             for (x, pinned) in (0..).zip(row) {
                 if let Some(colour) = pinned {

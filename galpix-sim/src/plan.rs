@@ -14,12 +14,8 @@ mod extremes;
 mod measured;
 mod motion;
 
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::error::BudgetError;
-use galpix_core::fill::Rung;
-use galpix_core::layout::Lanes;
-use galpix_core::record::Record;
-use galpix_core::rounding::Rounding;
+use galpix_core::record::Component;
+use galpix_core::{Bits, BudgetError, Demand, FillMode, Layout, Record, Rounding};
 use serde::Serialize;
 
 use crate::certificate::Unreachable;
@@ -28,9 +24,6 @@ use crate::experiment::{self, Request, Source};
 use extremes::Extremes;
 pub use measured::Measured;
 pub use motion::{Axis, Motion};
-
-/// Bits of colour of a planned layout: RGB888.
-const COLOUR_BITS: u32 = 24;
 
 /// Why there is no plan.
 #[derive(Debug, thiserror::Error)]
@@ -79,9 +72,9 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Build {
     pub bits: Bits,
-    pub lanes: Lanes,
+    pub layout: Layout,
     pub rounding: Rounding,
-    pub rung: Rung,
+    pub fill_mode: FillMode,
 }
 
 /// A plan for the error asked for, one for a tighter error, and the full budget beside them.
@@ -156,13 +149,13 @@ pub fn plan(source: &Source, request: &Request, max_error: f64, tighter: f64) ->
 }
 
 fn full_build(demand: Demand) -> Result<Build, PlanError> {
-    let lanes = Lanes { luminosity: true, ..Lanes::FULL };
-    Ok(Build { bits: Bits::derive(demand)?, lanes, rounding: Rounding::default(), rung: Rung::default() })
+    let layout = Layout { luminosity: true, ..Layout::FULL };
+    Ok(Build { bits: Bits::derive(demand)?, layout, rounding: Rounding::default(), fill_mode: FillMode::default() })
 }
 
 fn full(subject: &measured::Subject<'_>, demand: Demand) -> Result<Full, PlanError> {
     let build = full_build(demand)?;
-    let record = Record::plan(build.bits, build.lanes, COLOUR_BITS)?;
+    let record = Record::plan(build.bits, build.layout)?;
     let certificate =
         crate::certificate::Certificate::of(&record.scales[0], true, build.rounding, subject.frames.max(demand.prop));
     Ok(Full {
@@ -191,29 +184,29 @@ fn one(
     } else {
         "luminosity is left out: no code value changes by a half".to_owned()
     });
-    let lanes = Lanes {
+    let layout = Layout {
         depth_bits: 16,
         velocity: motion.velocity,
         acceleration: motion.acceleration,
         depth_motion: motion.velocity,
         luminosity,
-        tag_bits: 0,
+        ..Layout::STILL
     };
     let z =
         if motion.acceleration { Component::derive(demand)? } else { Component::derive_without_acceleration(demand)? };
     let derived = Bits::derive(demand)?;
     let bits = derived.with_xy(motion.x.component, motion.y.component).with_z(z, derived.depth_int);
-    let mut build = Build { bits, lanes, rounding: motion.rounding(), rung: Rung::Extend };
+    let mut build = Build { bits, layout, rounding: motion.rounding(), fill_mode: FillMode::Extend };
     depth::settle(subject, extremes, &mut build, &mut reasons)?;
-    let record = Record::plan(build.bits, build.lanes, COLOUR_BITS)?;
+    let record = Record::plan(build.bits, build.layout)?;
     let ran = subject.run(&build)?;
-    let code = code::text(subject.source.name(), &build, &record, subject.settings(&build)?);
+    let code = code::text(subject.source.name(), &build, &record, subject.settings(&build, &record));
     Ok(Plan {
         max_error_px: max_error,
-        depth_bits: build.lanes.depth_bits,
-        depth_motion: build.lanes.depth_motion,
+        depth_bits: build.layout.depth_bits,
+        depth_motion: build.layout.depth_motion,
         luminosity,
-        rung: build.rung.name(),
+        rung: build.fill_mode.name(),
         reasons,
         used_bits_per_galpixel: record.bits(),
         stored_bytes_per_galpixel: record.bytes(),

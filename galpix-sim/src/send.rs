@@ -20,7 +20,7 @@ mod tests;
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use galpix_core::galpixel::{Class, Galpixel};
+use galpix_core::{Class, Galpixel};
 use galpix_link::frame::{Frame, Galpixels, NO_SCENE, Status};
 use galpix_link::panel::{self, Description};
 use galpix_link::rejected::{Rejected, Rejections};

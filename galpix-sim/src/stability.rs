@@ -20,9 +20,7 @@ mod summary;
 mod tests;
 pub mod verdict;
 
-use galpix_core::budget::Demand;
-use galpix_core::fill::Rung;
-use galpix_core::rounding::Rounding;
+use galpix_core::{BudgetError, Demand, FillMode, Rounding};
 use rayon::prelude::*;
 
 pub use cases::{ALL, Case};
@@ -53,8 +51,8 @@ pub enum StabilityError {
     Engine(#[from] EngineError),
 }
 
-impl From<galpix_core::error::BudgetError> for StabilityError {
-    fn from(error: galpix_core::error::BudgetError) -> Self {
+impl From<BudgetError> for StabilityError {
+    fn from(error: BudgetError) -> Self {
         Self::Setting(error.into())
     }
 }
@@ -112,7 +110,7 @@ struct Laws {
 pub fn run(request: &Request, done: impl Fn(&'static str) + Sync) -> Result<Report, StabilityError> {
     request.check()?;
     let setting = Setting::new(request.demand)?;
-    let budget = BudgetReport::of::<galpix_core::layout::Full>(request.demand, setting.bits)?;
+    let budget = BudgetReport::of(request.demand, setting.bits, &setting.record);
     let chosen: Vec<&Case> = request.cases().collect();
     let longest =
         chosen.iter().flat_map(|case| (case.paths)(&setting)).map(|path| path.every.unwrap_or(path.frames)).max();
@@ -146,7 +144,7 @@ fn run_case(case: &Case, setting: &Setting, laws: &Laws) -> Result<RoundingRepor
     }
     let mut pictures: Vec<picture::Outcome> = Vec::new();
     for picture in (case.pictures)(setting) {
-        for rung in Rung::ALL {
+        for rung in FillMode::ALL {
             let [x, y, _] = &laws.components;
             let mut outcome = picture::run(&picture, setting, [x, y], laws.rounding, rung)?;
             let twin = pictures

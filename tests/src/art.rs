@@ -12,11 +12,7 @@
 
 use std::fmt;
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::frame::Controller;
-use galpix_core::galpixel::{Budget, Chosen, Class, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::layout::{Full, Layout};
+use galpix_core::{Bits, Class, Controller, Demand, Dynamic, Format, Galpixel, Galpixmap, Layout};
 
 use crate::lent::{Shape, with_controller};
 use crate::stage::number;
@@ -101,9 +97,9 @@ impl fmt::Debug for Art {
 }
 
 impl Art {
-    /// Draws the whole map, wings included.
+    /// Draws the whole map, margin included.
     #[must_use]
-    pub fn of<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, panels: &[Panel]) -> Self {
+    pub fn of<F: Format>(map: &Galpixmap<'_, F>, panels: &[Panel]) -> Self {
         let line = |y: u32, panel: Panel| -> String {
             let cells = (0..map.grid().width()).map(|x| map.load(x as i32, y as i32).expect("in the map"));
             cells.map(|galpixel| sign(&galpixel, panel)).collect()
@@ -147,7 +143,7 @@ impl Drawing<'_> {
     /// Stores every cell, each galpixel after `change`.
     ///
     /// Panics if panels are missing or of different widths, or if a sign means nothing.
-    pub fn store<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>, change: impl Fn(&mut Galpixel)) {
+    pub fn store<F: Format>(&self, map: &mut Galpixmap<'_, F>, change: impl Fn(&mut Galpixel)) {
         for (y, line) in (0..).zip(self.0) {
             let panels: Vec<Vec<char>> = line.split_whitespace().map(|panel| panel.chars().collect()).collect();
             let [colours, depths, motions] = panels.try_into().expect("colour, depth and motion");
@@ -172,17 +168,17 @@ impl Drawing<'_> {
     }
 }
 
-/// The budget of drawings: the paper's example.
+/// The format of drawings: the paper's example.
 #[must_use]
-pub fn budget() -> Chosen<Full> {
+pub fn format() -> Dynamic {
     let bits = Bits::derive(Demand { extent: 1024, recog: 8, prop: 16 }).expect("the paper's example");
-    Chosen::new(bits).expect("the paper's layout")
+    Dynamic::new(bits, Layout::FULL).expect("the paper's layout")
 }
 
-/// Lends a controller whose map shows a drawing on a display without wings.
-pub fn with_drawing<R>(drawing: &[&str], work: impl for<'p> FnOnce(&mut Controller<'p, Full, Chosen<Full>>) -> R) -> R {
+/// Lends a controller whose map shows a drawing on a display without margin.
+pub fn with_drawing<R>(drawing: &[&str], work: impl for<'p> FnOnce(&mut Controller<'p, Dynamic>) -> R) -> R {
     let drawing = Drawing(drawing);
-    with_controller(drawing.shape(), budget(), None, |controller| {
+    with_controller(drawing.shape(), format(), None, |controller| {
         drawing.store(controller.front_mut(), |_| ());
         work(controller)
     })

@@ -1,8 +1,8 @@
 //! The equations in exact arithmetic: numbers are multiples of `2^-64` in an `i128`, and nothing is rounded unless the
 //! equation says so.
 
-use galpix_core::budget::Component;
-use galpix_core::rounding::Rounding;
+use galpix_core::Rounding;
+use galpix_core::record::Component;
 
 /// Fraction bits of [`Exact`].
 const FRAC: u32 = 64;

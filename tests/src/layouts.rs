@@ -1,81 +1,57 @@
 //! Layouts that the product does not need: tiny ones, whose states can be enumerated, and neighbours of the built-in ones
-//! that lack a lane.
+//! that lack a field.
 
-use galpix_core::colour::{Colour, Gray4, Gray8, Rgb565, Rgb888};
-use galpix_core::layout::{Lanes, Layout};
+use galpix_core::{Colour, Layout};
 
-macro_rules! layouts {
-    ($($(#[$doc:meta])* $name:ident: $colour:ty, $lanes:expr;)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug)]
-        pub enum $name {}
-        impl Layout for $name {
-            type Colour = $colour;
-            const LANES: Lanes = $lanes;
-        }
-    )*};
-}
+/// Motion in the plane; class and 4 bits of colour beside it.
+pub const TINY_PLANE: Layout = Layout { colour: Colour::GRAY4, depth_bits: 0, depth_motion: false, ..Layout::FULL };
+/// Motion in the plane without acceleration.
+pub const TINY_SLIDE: Layout = Layout { acceleration: false, ..TINY_PLANE };
+/// Motion in depth over a z-buffer of 3 bits and a fraction.
+pub const TINY_DEPTH: Layout = Layout { depth_bits: 3, depth_motion: true, ..TINY_PLANE };
+/// Motion in the plane before a z-buffer of 2 bits.
+pub const TINY_DEEP: Layout = Layout { depth_bits: 2, ..TINY_PLANE };
+/// The same without acceleration.
+pub const TINY_DEEP_SLIDE: Layout = Layout { acceleration: false, ..TINY_DEEP };
+/// Shading inertia of 4 bits of gray.
+pub const TINY_SHADED: Layout = Layout { colour: Colour::GRAY4, luminosity: true, ..Layout::STILL };
+/// Shading inertia where one channel is wider than the others.
+pub const SHADED565: Layout = Layout { colour: Colour::RGB565, ..TINY_SHADED };
+/// `Layout::SHADED` without acceleration.
+pub const SHADED_WITHOUT_ACCELERATION: Layout = Layout { acceleration: false, ..Layout::SHADED };
+/// `Layout::SHADED` without motion in depth; its z-buffer has the bits that 16 and a fraction of 4 have.
+pub const SHADED_WITHOUT_DEPTH_MOTION: Layout = Layout { depth_bits: 20, depth_motion: false, ..Layout::SHADED };
+/// `Layout::SHADED` without a tag.
+pub const SHADED_WITHOUT_TAG: Layout = Layout { tag_bits: 0, ..Layout::SHADED };
+/// `Layout::SHADED` without luminosity rate.
+pub const SHADED_WITHOUT_LUMINOSITY: Layout = Layout { luminosity: false, ..Layout::SHADED };
+/// `Layout::FLAT565` without depth.
+pub const FLAT565_WITHOUT_DEPTH: Layout = Layout { depth_bits: 0, ..Layout::FLAT565 };
+/// `Layout::VELOCITY565` that does not move.
+pub const VELOCITY565_WITHOUT_VELOCITY: Layout = Layout { velocity: false, ..Layout::VELOCITY565 };
+/// A z-buffer as deep as a record can have one.
+pub const DEEP: Layout = Layout { colour: Colour::GRAY8, depth_bits: 28, ..Layout::VELOCITY565 };
 
-/// Everything a layout can have.
-pub const EVERYTHING: Lanes = Lanes { luminosity: true, tag_bits: 8, ..Lanes::FULL };
-/// No depth, no tag: motion in the plane with acceleration.
-const PLANE: Lanes = Lanes { depth_bits: 0, depth_motion: false, ..Lanes::FULL };
-
-layouts! {
-    /// Motion in the plane; class and 4 bits of colour beside it.
-    TinyPlane: Gray4, PLANE;
-    /// Motion in the plane without acceleration.
-    TinySlide: Gray4, Lanes { acceleration: false, ..PLANE };
-    /// Motion in depth over a z-buffer of 3 bits and a fraction.
-    TinyDepth: Gray4, Lanes { depth_bits: 3, depth_motion: true, ..PLANE };
-    /// Motion in the plane before a z-buffer of 2 bits.
-    TinyDeep: Gray4, Lanes { depth_bits: 2, ..PLANE };
-    /// The same without acceleration.
-    TinyDeepSlide: Gray4, Lanes { depth_bits: 2, acceleration: false, ..PLANE };
-    /// Shading inertia of 4 bits of gray.
-    TinyShaded: Gray4, Lanes { luminosity: true, ..Lanes::NONE };
-    /// Shading inertia where one channel is wider than the others.
-    Shaded565: Rgb565, Lanes { luminosity: true, ..Lanes::NONE };
-    /// The built-in `Shaded` without acceleration.
-    ShadedWithoutAcceleration: Rgb888, Lanes { acceleration: false, ..EVERYTHING };
-    /// The built-in `Shaded` without motion in depth; its z-buffer has the bits that 16 and a fraction of 4 have.
-    ShadedWithoutDepthMotion: Rgb888, Lanes { depth_bits: 20, depth_motion: false, ..EVERYTHING };
-    /// The built-in `Shaded` without a tag.
-    ShadedWithoutTag: Rgb888, Lanes { tag_bits: 0, ..EVERYTHING };
-    /// The built-in `Shaded` without luminosity rate.
-    ShadedWithoutLuminosity: Rgb888, Lanes { luminosity: false, ..EVERYTHING };
-    /// The built-in `Flat565` without depth.
-    Flat565WithoutDepth: Rgb565, Lanes { depth_bits: 0, depth_motion: false, ..Lanes::FULL };
-    /// The built-in `Velocity565` that does not move.
-    Velocity565WithoutVelocity: Rgb565, Lanes { velocity: false, ..Lanes::VELOCITY_XY };
-    /// A z-buffer as deep as a record can have one.
-    Deep: Gray8, Lanes { depth_bits: 28, ..Lanes::VELOCITY_XY };
-}
-
-/// The lanes of every built-in layout and of some more, with the bits of the colour.
+/// Every built-in layout and those above that a map of the built-in scenes can have.
 #[must_use]
-pub fn every_kind() -> Vec<(Lanes, u32)> {
-    use galpix_core::layout::{Flat565, Full, Shaded, Still, Tagged, Velocity565, VelocityGray4, VelocityGray8};
-    fn of<L: Layout>() -> (Lanes, u32) {
-        (L::LANES, L::Colour::BITS)
-    }
+pub fn every_kind() -> Vec<Layout> {
     vec![
-        of::<Full>(),
-        of::<Tagged>(),
-        of::<Shaded>(),
-        of::<Flat565>(),
-        of::<Velocity565>(),
-        of::<VelocityGray8>(),
-        of::<VelocityGray4>(),
-        of::<Still>(),
-        of::<TinyPlane>(),
-        of::<TinySlide>(),
-        of::<TinyDepth>(),
-        of::<TinyShaded>(),
-        of::<ShadedWithoutAcceleration>(),
-        of::<ShadedWithoutDepthMotion>(),
-        of::<Flat565WithoutDepth>(),
-        of::<Velocity565WithoutVelocity>(),
-        of::<Deep>(),
+        Layout::FULL,
+        Layout::TAGGED,
+        Layout::SHADED,
+        Layout::FLAT565,
+        Layout::VELOCITY565,
+        Layout::VELOCITY_GRAY8,
+        Layout::VELOCITY_GRAY4,
+        Layout::STILL,
+        TINY_PLANE,
+        TINY_SLIDE,
+        TINY_DEPTH,
+        TINY_SHADED,
+        SHADED_WITHOUT_ACCELERATION,
+        SHADED_WITHOUT_DEPTH_MOTION,
+        FLAT565_WITHOUT_DEPTH,
+        VELOCITY565_WITHOUT_VELOCITY,
+        DEEP,
     ]
 }

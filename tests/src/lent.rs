@@ -1,12 +1,9 @@
 //! Memory for maps: owned here, lent to the engine for the time of a closure.
 
-use galpix_core::edge;
-use galpix_core::frame::{Controller, Scratch, Settings};
-use galpix_core::galpixel::Budget;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
-use galpix_core::layout::Layout;
-use galpix_core::tally::Tally;
+use galpix_core::layers::Layers;
+use galpix_core::rolling::Rolling;
+use galpix_core::stages;
+use galpix_core::{Controller, Format, Galpixmap, Grid, Margin, Scratch, Settings, Tally};
 
 /// Columns and rows of a display, and what its maps have beyond it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,32 +13,38 @@ pub struct Shape {
     /// Rows of the display.
     pub height: u32,
     /// Columns and rows beyond it.
-    pub wings: Wings,
+    pub margin: Margin,
 }
 
 impl Shape {
-    /// A map without wings.
+    /// A map without margin.
     #[must_use]
     pub const fn plain(width: u32, height: u32) -> Self {
-        Self { width, height, wings: Wings::NONE }
+        Self::new(width, height, [0; 4])
     }
 
-    /// Cells, wings included.
+    /// A map with a margin: columns on the left and on the right, rows above and below.
+    #[must_use]
+    pub const fn new(width: u32, height: u32, [left, right, top, bottom]: [u32; 4]) -> Self {
+        Self { width, height, margin: Margin { left, right, top, bottom } }
+    }
+
+    /// Cells, margin included.
     #[must_use]
     pub const fn cells(self) -> u32 {
-        Grid::cells_for(self.width, self.height, self.wings)
+        Grid::cells_for(self.width, self.height, self.margin)
     }
 
-    /// Columns, wings included.
+    /// Columns, margin included.
     #[must_use]
     pub const fn columns(self) -> u32 {
-        self.width + self.wings.left + self.wings.right
+        self.width + self.margin.left + self.margin.right
     }
 
-    /// Rows, wings included.
+    /// Rows, margin included.
     #[must_use]
     pub const fn rows(self) -> u32 {
-        self.height + self.wings.top + self.wings.bottom
+        self.height + self.margin.top + self.margin.bottom
     }
 }
 
@@ -51,51 +54,137 @@ const STALE: u32 = 0xa5a5_a5a5;
 /// Lends two maps over one grid: the first holds `content` (any words), or is empty; the second holds stale words.
 ///
 /// Panics if the maps cannot be set up.
-pub fn with_maps<L: Layout, B: Budget<L>, R>(
+pub fn with_maps<F: Format, R>(
     shape: Shape,
-    budget: B,
+    format: F,
     content: Option<&[u32]>,
-    work: impl for<'p> FnOnce(Galpixmap<'p, L, B>, Galpixmap<'p, L, B>) -> R,
+    work: impl for<'p> FnOnce(Galpixmap<'p, F>, Galpixmap<'p, F>) -> R,
 ) -> R {
-    let mut starts = vec![STALE; Grid::rows(shape.height, shape.wings)];
-    let grid = Grid::new(shape.width, shape.height, shape.wings, &mut starts).unwrap();
-    let words = Galpixmap::<L, B>::words(&grid, budget);
+    let mut starts = vec![STALE; Grid::rows(shape.height, shape.margin)];
+    let grid = Grid::new(shape.width, shape.height, shape.margin, &mut starts).unwrap();
+    let words = Galpixmap::words(&grid, format);
     let mut front = content.map_or_else(|| vec![STALE; words], <[u32]>::to_vec);
     let mut back = vec![STALE; words];
     let front = match content {
-        Some(_) => Galpixmap::over(grid, budget, &mut front),
-        None => Galpixmap::new(grid, budget, &mut front),
+        Some(_) => Galpixmap::over(grid, format, &mut front),
+        None => Galpixmap::new(grid, format, &mut front),
     };
-    work(front.unwrap(), Galpixmap::over(grid, budget, &mut back).unwrap())
+    work(front.unwrap(), Galpixmap::over(grid, format, &mut back).unwrap())
 }
 
-/// Lends a controller with all the scratch memory that any rung needs. `content` as in [`with_maps`].
+/// Which of its scratch memories a controller is lent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lent {
+    /// A winner map and an edge map.
+    Both,
+    /// A winner map.
+    Winners,
+    /// An edge map.
+    Edges,
+    /// None.
+    Neither,
+}
+
+/// Lends a controller with some scratch memory. `content` as in [`with_maps`].
 ///
 /// Panics if the maps cannot be set up.
-pub fn with_controller<L: Layout, B: Budget<L>, R>(
+pub fn with_scratch<F: Format, R>(
     shape: Shape,
-    budget: B,
+    format: F,
     content: Option<&[u32]>,
-    work: impl for<'p> FnOnce(&mut Controller<'p, L, B>) -> R,
+    lent: Lent,
+    work: impl for<'p> FnOnce(&mut Controller<'p, F>) -> R,
 ) -> R {
-    let mut winners = vec![STALE; shape.cells() as usize];
-    let mut edges = vec![STALE; shape.cells().div_ceil(32) as usize];
-    with_maps(shape, budget, content, |front, back| {
-        assert_eq!(edges.len(), edge::words(front.grid()));
+    let (winners, edges) = match lent {
+        Lent::Both => (true, true),
+        Lent::Winners => (true, false),
+        Lent::Edges => (false, true),
+        Lent::Neither => (false, false),
+    };
+    let mut winners = vec![STALE; if winners { shape.cells() as usize } else { 0 }];
+    let mut edges = vec![STALE; if edges { shape.cells().div_ceil(32) as usize } else { 0 }];
+    with_maps(shape, format, content, |front, back| {
+        assert!(edges.is_empty() || edges.len() == stages::words(front.grid()));
         let scratch = Scratch { winners: &mut winners, edges: &mut edges };
         work(&mut Controller::new(front, back, scratch).unwrap())
     })
 }
 
+/// Lends a controller with all the scratch memory that any fill mode needs. `content` as in [`with_maps`].
+///
+/// Panics if the maps cannot be set up.
+pub fn with_controller<F: Format, R>(
+    shape: Shape,
+    format: F,
+    content: Option<&[u32]>,
+    work: impl for<'p> FnOnce(&mut Controller<'p, F>) -> R,
+) -> R {
+    with_scratch(shape, format, content, Lent::Both, work)
+}
+
+/// Lends a map that holds `content` and is propagated in place, with a window of `rows` rows.
+///
+/// Panics if it cannot be set up.
+pub fn with_rolling<F: Format, R>(
+    shape: Shape,
+    format: F,
+    content: &[u32],
+    rows: u32,
+    work: impl for<'p> FnOnce(&mut Rolling<'p, F>) -> R,
+) -> R {
+    let (mut starts, mut turns) = (vec![STALE; shape.rows() as usize], vec![STALE; shape.rows() as usize]);
+    let grid = Grid::new(shape.width, shape.height, shape.margin, &mut starts).unwrap();
+    let window = Grid::window(&grid, rows, &mut turns).unwrap();
+    assert_eq!(window.cells(), rows.min(shape.rows()) * shape.columns());
+    let (mut memory, mut few) = (content.to_vec(), vec![STALE; Galpixmap::words(&window, format)]);
+    let (mut winners, mut edges) = (vec![STALE; window.cells() as usize], vec![STALE; stages::words(&grid)]);
+    let rolling = Rolling::new(
+        Galpixmap::over(grid, format, &mut memory).unwrap(),
+        Galpixmap::over(window, format, &mut few).unwrap(),
+        Scratch { winners: &mut winners, edges: &mut edges },
+    );
+    work(&mut rolling.unwrap())
+}
+
+/// The two entry points of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    /// What the picture does not need is skipped.
+    Step,
+    /// Instructions that do not depend on the picture.
+    ConstantTime,
+}
+
+impl Mode {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Step, Self::ConstantTime];
+
+    /// Makes the next frame of a controller.
+    pub fn step<F: Format>(self, controller: &mut Controller<'_, F>, settings: &Settings) -> Tally {
+        match self {
+            Self::Step => controller.step(settings),
+            Self::ConstantTime => controller.step_constant_time(settings),
+        }
+    }
+
+    /// Makes the next frame of some layers.
+    pub fn step_layers<F: Format>(self, layers: &mut Layers<'_, '_, F>, settings: &Settings) -> Tally {
+        match self {
+            Self::Step => layers.step(settings),
+            Self::ConstantTime => layers.step_constant_time(settings),
+        }
+    }
+}
+
 /// All planes of a map, one after the other.
 #[must_use]
-pub fn words<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>) -> Vec<u32> {
+pub fn words<F: Format>(map: &Galpixmap<'_, F>) -> Vec<u32> {
     (0..).map_while(|word| map.plane(word)).flatten().copied().collect()
 }
 
 /// The words of one cell.
 #[must_use]
-pub fn cell_words<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, cell: u32) -> Vec<u32> {
+pub fn cell_words<F: Format>(map: &Galpixmap<'_, F>, cell: u32) -> Vec<u32> {
     (0..).map_while(|word| map.plane(word)).map(|plane| plane[cell as usize]).collect()
 }
 
@@ -115,7 +204,7 @@ pub struct Trace {
 impl Trace {
     /// What the last step of a controller left behind.
     #[must_use]
-    pub fn of<L: Layout, B: Budget<L>>(controller: &Controller<'_, L, B>, tally: Tally) -> Self {
+    pub fn of<F: Format>(controller: &Controller<'_, F>, tally: Tally) -> Self {
         Self {
             tally,
             words: words(controller.front()),
@@ -140,23 +229,54 @@ impl Trace {
     }
 }
 
-/// What each of `frames` frames leaves behind, from a map that holds `content`.
-///
-/// Panics if the maps cannot be set up.
-#[must_use]
-pub fn traces<L: Layout, B: Budget<L>>(
-    shape: Shape,
-    budget: B,
-    content: &[u32],
-    settings: &Settings,
-    frames: u32,
-) -> Vec<Trace> {
-    with_controller::<L, B, _>(shape, budget, Some(content), |controller| {
-        (0..frames)
-            .map(|_| {
-                let tally = controller.step(settings);
+/// How some frames are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// What each frame is made with.
+    pub settings: Settings,
+    /// The entry point.
+    pub mode: Mode,
+    /// The scratch memory.
+    pub lent: Lent,
+    /// The frame counter of the map to begin with.
+    pub first: u32,
+    /// How many frames.
+    pub frames: u32,
+}
+
+impl Run {
+    /// [`Mode::Step`] with all scratch memory, from frame 0 on.
+    #[must_use]
+    pub const fn new(settings: Settings, frames: u32) -> Self {
+        Self { settings, mode: Mode::Step, lent: Lent::Both, first: 0, frames }
+    }
+
+    /// The same by another entry point.
+    #[must_use]
+    pub const fn by(self, mode: Mode) -> Self {
+        Self { mode, ..self }
+    }
+
+    /// What each frame leaves behind, from a map that holds `content`.
+    ///
+    /// Panics if the maps cannot be set up.
+    #[must_use]
+    pub fn traces<F: Format>(&self, shape: Shape, format: F, content: &[u32]) -> Vec<Trace> {
+        with_scratch(shape, format, Some(content), self.lent, |controller| {
+            controller.set_frame(self.first);
+            let trace = |_| {
+                let tally = self.mode.step(controller, &self.settings);
                 Trace::of(controller, tally)
-            })
-            .collect()
-    })
+            };
+            (0..self.frames).map(trace).collect()
+        })
+    }
+}
+
+/// Panics with `what` and the first frame and thing that differs.
+pub fn assert_same(one: &[Trace], other: &[Trace], what: &str) {
+    assert_eq!(one.len(), other.len(), "{what}");
+    for (n, (one, other)) in (1..).zip(one.iter().zip(other)) {
+        one.assert_same(other, &format!("{what}, frame {n}"));
+    }
 }

@@ -1,13 +1,7 @@
 //! The built-in scenes as maps.
 
 use fixed::types::I32F32;
-use galpix_core::fill::Rung;
-use galpix_core::frame::Settings;
-use galpix_core::galpixel::{Budget, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Wings;
-use galpix_core::layout::Layout;
-use galpix_core::rounding::Rounding;
+use galpix_core::{FillMode, Format, Galpixel, Galpixmap, Margin, Rounding, Settings};
 use galpix_sim::engine::galpixel;
 use galpix_sim::scene::{self, Scene};
 use galpix_sim::update::Update;
@@ -33,23 +27,23 @@ pub fn all() -> impl Iterator<Item = Stage> {
         let shape = Shape {
             width: update.display_width() as u32,
             height: update.display_height() as u32,
-            wings: Wings { left, right, top, bottom },
+            margin: Margin { left, right, top, bottom },
         };
         Stage { scene, update, shape }
     })
 }
 
 impl Stage {
-    /// The words of the update, each galpixel after `change`, in a layout.
-    pub fn content<L: Layout, B: Budget<L>>(&self, budget: B, change: impl Fn(&mut Galpixel)) -> Vec<u32> {
-        with_maps::<L, B, _>(self.shape, budget, None, |mut front, _| {
+    /// The words of the update, each galpixel after `change`, in a format.
+    pub fn content<F: Format>(&self, format: F, change: impl Fn(&mut Galpixel)) -> Vec<u32> {
+        with_maps(self.shape, format, None, |mut front, _| {
             self.load(&mut front, change);
             words(&front)
         })
     }
 
     /// Stores the update, each galpixel after `change`.
-    pub fn load<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>, change: impl Fn(&mut Galpixel)) {
+    pub fn load<F: Format>(&self, map: &mut Galpixmap<'_, F>, change: impl Fn(&mut Galpixel)) {
         for (y, row) in (0..).zip(self.update.samples.chunks(self.update.width)) {
             for (x, sample) in (0..).zip(row) {
                 let mut stored = galpixel(sample);
@@ -60,19 +54,19 @@ impl Stage {
     }
 }
 
-/// Every rung, and a rounding with each: over three turns, every rung with every rounding.
+/// Every fill mode, and a rounding with each: over three turns, every fill mode with every rounding.
 pub fn settings_in_turn(turn: usize, depth_bits: u8) -> impl Iterator<Item = Settings> {
-    (turn..).zip(Rung::ALL).map(move |(turn, rung)| {
+    (turn..).zip(FillMode::ALL).map(move |(turn, fill_mode)| {
         let rounding = Rounding::ALL[turn % Rounding::ALL.len()];
         // More rounds of bullet filling for one of the roundings.
         let reach = if rounding == Rounding::Nearest { 3 } else { 1 };
-        Settings { rounding, rung, reach, ..Settings::for_depth(depth_bits.into()) }
+        Settings { rounding, fill_mode, reach, ..Settings::for_depth(depth_bits.into()) }
     })
 }
 
 /// The settings for a map's own depth.
 #[must_use]
-pub fn settings<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>) -> Settings {
+pub fn settings<F: Format>(map: &Galpixmap<'_, F>) -> Settings {
     Settings::for_depth(u32::from(map.record().depth().bits))
 }
 

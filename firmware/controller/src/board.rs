@@ -3,14 +3,14 @@
 use core::convert::Infallible;
 
 use embedded_graphics::draw_target::DrawTarget;
-use embedded_graphics::pixelcolor::PixelColor;
+use galpix_core::scan_out::PanelColour;
 
 /// A board with its panel.
 pub trait Board {
     /// A pixel of its panel.
-    type Pixel: PixelColor;
-    /// What a band of the picture is drawn on. Its coordinates are those of the whole panel; what lies outside of the band is
-    /// not drawn.
+    type Pixel: PanelColour;
+    /// What a band of the picture is drawn on. Its coordinates are those of the whole panel; what lies outside of the
+    /// band is not drawn.
     type Band: DrawTarget<Color = Self::Pixel, Error = Infallible>;
 
     /// Ticks of [`Self::ticks`] between two vsyncs.
@@ -27,8 +27,8 @@ pub trait Board {
         (0, 0)
     }
 
-    /// Lets `draw` draw the whole picture, band by band from the top, each with its first row and its rows; then the panel
-    /// shows it.
+    /// Lets `draw` draw the whole picture, band by band from the top, each with its first row and its rows; then the
+    /// panel shows it.
     fn show(&mut self, draw: impl FnMut(&mut Self::Band, u32, u32));
 
     /// The next byte from the host, if one has come.

@@ -1,10 +1,8 @@
 //! Maps whose frames are inpainted: push-pull over what each of them uncovered.
 
-use galpix_core::frame::{Inpainting, Settings};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::map::Filling;
 use galpix_core::inpaint::pyramid::Pyramid;
-use galpix_core::tally::Tally;
+use galpix_core::{Galpixmap, Inpainting, Settings, Tally};
 
 use crate::maps::Maps;
 
@@ -22,9 +20,8 @@ impl<'s, M, V> Inpainted<'s, M, V> {
     }
 }
 
-impl<'p, M: Maps<'p>, V: OfGalpixel<M::Layout>> Maps<'p> for Inpainted<'_, M, V> {
-    type Layout = M::Layout;
-    type Budget = M::Budget;
+impl<'p, M: Maps<'p>, V: Filling> Maps<'p> for Inpainted<'_, M, V> {
+    type Format = M::Format;
 
     fn step(&mut self, settings: &Settings) -> Tally {
         let tally = self.maps.step(settings);
@@ -32,7 +29,7 @@ impl<'p, M: Maps<'p>, V: OfGalpixel<M::Layout>> Maps<'p> for Inpainted<'_, M, V>
         tally
     }
 
-    fn inpaint<W: OfGalpixel<M::Layout>>(
+    fn inpaint<W: Filling>(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
@@ -41,11 +38,11 @@ impl<'p, M: Maps<'p>, V: OfGalpixel<M::Layout>> Maps<'p> for Inpainted<'_, M, V>
         self.maps.inpaint(settings, inpainting, pyramid)
     }
 
-    fn shown(&self) -> &Galpixmap<'p, M::Layout, M::Budget> {
+    fn shown(&self) -> &Galpixmap<'p, M::Format> {
         self.maps.shown()
     }
 
-    fn shown_mut(&mut self) -> &mut Galpixmap<'p, M::Layout, M::Budget> {
+    fn shown_mut(&mut self) -> &mut Galpixmap<'p, M::Format> {
         self.maps.shown_mut()
     }
 

@@ -1,7 +1,6 @@
 //! What the controller says, with the feature `defmt`; nothing without it.
 
-use galpix_core::record::Record;
-use galpix_core::tally::Tally;
+use galpix_core::{Record, Tally};
 use galpix_link::frame::Status;
 use galpix_link::panel::Description;
 use galpix_link::rejected::Rejected;
@@ -34,7 +33,8 @@ pub fn started(panel: &Description, record: &Record, memory: &[(&'static str, us
     let _ = (panel, record, memory);
 }
 
-/// Once a second: what the last frame counted, how busy the processor was in the longest one, and what came over the line.
+/// Once a second: what the last frame counted, how busy the processor was in the longest one, and what came over the
+/// line.
 pub fn second(status: &Status, tally: &Tally) {
     #[cfg(feature = "defmt")]
     {

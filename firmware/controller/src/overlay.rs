@@ -10,7 +10,7 @@ use embedded_graphics::mono_font::{MonoTextStyle, MonoTextStyleBuilder};
 use embedded_graphics::pixelcolor::PixelColor;
 use embedded_graphics::primitives::Rectangle;
 use embedded_graphics::text::{Baseline, Text};
-use galpix_core::tally::Tally;
+use galpix_core::Tally;
 use heapless::String;
 
 /// Where its text begins.

@@ -1,16 +1,11 @@
 //! The renderer on the device: delivers an update of a built-in scene every [`EVERY`] frames, some rows a frame.
 //!
-//! A whole update takes [`TAKES`] frames, as it would over a line, so that no frame has to make room for all of it. Each row
-//! is exact when it enters the map. All rows of an update carry its number as their tag.
+//! A whole update takes [`TAKES`] frames, as it would over a line, so that no frame has to make room for all of it.
+//! Each row is exact when it enters the map. All rows of an update carry its number as their tag.
 
 use fixed::types::I32F32;
-use galpix_core::colour::Colour;
-use galpix_core::galpixel::{Budget, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::graft::graft;
-use galpix_core::layout::Layout;
 use galpix_core::record::MAX_WORDS;
-use galpix_core::rounding::Rounding;
+use galpix_core::{Format, Galpixel, Galpixmap, Rounding, graft};
 use heapless::Vec;
 
 use crate::scene::{Body, Number, Scene};
@@ -46,13 +41,13 @@ impl Renderer {
     }
 
     /// Puts the scene's first update into a map, as a whole.
-    pub fn begin<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>) {
+    pub fn begin<F: Format>(&self, map: &mut Galpixmap<'_, F>) {
         map.clear();
         self.rows(map, 0, map.grid().display_height(), self.since);
     }
 
     /// Puts the rows whose turn it is into a map whose frame counter is `now`.
-    pub fn next<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>, now: u32) {
+    pub fn next<F: Format>(&self, map: &mut Galpixmap<'_, F>, now: u32) {
         let (age, height) = (now.wrapping_sub(self.since), map.grid().display_height());
         let turn = age & (EVERY - 1);
         if age != 0 && turn < TAKES {
@@ -61,7 +56,7 @@ impl Renderer {
         }
     }
 
-    fn rows<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>, from: u32, to: u32, now: u32) {
+    fn rows<F: Format>(&self, map: &mut Galpixmap<'_, F>, from: u32, to: u32, now: u32) {
         let age = now.wrapping_sub(self.since);
         let (width, height) = (map.grid().display_width() as i32, map.grid().display_height() as i32);
         let zoom = (height >> 6).max(1);
@@ -83,7 +78,7 @@ impl Renderer {
 }
 
 /// A body at frame `age` of its scene, as this map stores it.
-fn model<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, body: &'static Body, age: u32, zoom: i32) -> Model {
+fn model<F: Format>(map: &Galpixmap<'_, F>, body: &'static Body, age: u32, zoom: i32) -> Model {
     let placed = body.at(age, zoom);
     let [x, y] = placed.velocity.map(I32F32::from_num::<Number>);
     let [x_change, y_change] = placed.acceleration.map(I32F32::from_num::<Number>);
@@ -94,5 +89,6 @@ fn model<L: Layout, B: Budget<L>>(map: &Galpixmap<'_, L, B>, body: &'static Body
         tag: age / EVERY,
         ..Galpixel::default()
     });
-    Model { body, place: placed.place, words, colours: body.texture.colours.map(L::Colour::from_rgb888) }
+    let colour = map.record().colour_format();
+    Model { body, place: placed.place, words, colours: body.texture.colours.map(|rgb| colour.from_rgb888(rgb)) }
 }

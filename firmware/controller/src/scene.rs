@@ -1,7 +1,7 @@
 //! Built-in scenes: a few bodies and how they move, evaluated in fixed point on the device, as a renderer would do it.
 //!
-//! *Units:* lengths in 64ths of the display's height, from its centre, x to the right and y down; times in frames. A display
-//! of `h` rows has `h / 64` cells to the unit, rounded down: [`Placed`] is in cells.
+//! *Units:* lengths in 64ths of the display's height, from its centre, x to the right and y down; times in frames. A
+//! display of `h` rows has `h / 64` cells to the unit, rounded down: [`Placed`] is in cells.
 
 use fixed::types::I20F12;
 
@@ -67,7 +67,8 @@ pub enum Pattern {
     Grid,
 }
 
-/// Where something is along one axis. It starts anew every `period` frames, there and back by turns if it is `mirrored`.
+/// Where something is along one axis. It starts anew every `period` frames, there and back by turns if it is
+/// `mirrored`.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
     /// Where it starts.

@@ -1,15 +1,10 @@
 //! The program: every vsync a frame, and between them what the host sends.
 //!
-//! One frame: listen to the line, let the renderer deliver its rows, propagate, wait for the vsync, show. Nothing in it waits
-//! for the host: an update that is late, short, corrupt or never comes changes only what the picture shows.
+//! One frame: listen to the line, let the renderer deliver its rows, propagate, wait for the vsync, show. Nothing in it
+//! waits for the host: an update that is late, short, corrupt or never comes changes only what the picture shows.
 
-use galpix_core::colour::Colour;
-use galpix_core::frame::Settings;
-use galpix_core::galpixel::Budget;
-use galpix_core::graft::graft;
-use galpix_core::layout::Layout;
 use galpix_core::scan_out::{PanelColour, View, row};
-use galpix_core::tally::Tally;
+use galpix_core::{Format, Settings, Tally, graft};
 use galpix_link::decode::Decoder;
 use galpix_link::frame::{Frame, Galpixels, MAX_ENCODED, NO_SCENE, Status};
 use galpix_link::panel::Description;
@@ -39,9 +34,6 @@ const SECOND: u32 = 60;
 /// Frames for which a controller in lockstep waits for its host.
 const PATIENCE: u32 = 120 * SECOND;
 
-/// A colour of the maps on this board.
-type ColourOf<'p, M> = <<M as Maps<'p>>::Layout as Layout>::Colour;
-
 /// The controller of one panel.
 pub struct Session<'p, M, B> {
     board: B,
@@ -70,7 +62,6 @@ struct Line {
 impl<'p, M, B> Session<'p, M, B>
 where
     M: Maps<'p>,
-    M::Layout: Layout<Colour: PanelColour<Pixel = B::Pixel>>,
     B: Board,
 {
     /// A controller that shows the first built-in scene.
@@ -133,7 +124,7 @@ where
     fn present(&mut self) {
         let overlay = self.overlay.then(|| Overlay::new(self.maps.frame(), &self.tally));
         let map = self.maps.shown();
-        let ink = [[255; 3], [0; 3]].map(|rgb| ColourOf::<'p, M>::pixel(ColourOf::<'p, M>::from_rgb888(rgb)));
+        let ink = [[255; 3], [0; 3]].map(|rgb| B::Pixel::of_word(B::Pixel::FORMAT.from_rgb888(rgb)));
         self.board.show(|band, top, rows| {
             for y in top..top + rows {
                 // A band is infallible.
@@ -287,6 +278,6 @@ impl Line {
 }
 
 /// Logs what a controller starts with: the panel, the stored form, and the memory by its use.
-pub fn log_start<L: Layout, B: Budget<L>>(panel: &Description, budget: B, memory: &[(&'static str, usize)]) {
-    log::started(panel, budget.record(), memory);
+pub fn log_start<F: Format>(panel: &Description, format: F, memory: &[(&'static str, usize)]) {
+    log::started(panel, format.record(), memory);
 }

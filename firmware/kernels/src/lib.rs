@@ -1,23 +1,19 @@
 //! The engine's kernels on all states of a tiny budget, on the processor that runs them.
 //!
-//! Offset, velocity and acceleration of x and y take 16 bits here: all 65536 states make one step each, under every threshold
-//! that the roundings have, in a whole sweep. Each is compared with the same step in plain numbers, by divisions, and all
-//! words that come out are hashed: the hash is the same on every processor.
+//! Offset, velocity and acceleration of x and y take 16 bits here: all 65536 states make one step each, under every
+//! threshold that the roundings have, in a whole sweep. Each is compared with the same step in plain numbers, by
+//! divisions, and all words that come out are hashed: the hash is the same on every processor.
 
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 use fixed::types::I32F32;
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::colour::Gray4;
-use galpix_core::error::{BudgetError, SetupError};
-use galpix_core::galpixel::{Galpixel, Profile, Static};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
-use galpix_core::layout::{Lanes, Layout};
-use galpix_core::rounding::Rounding;
-use galpix_core::sweep;
+use galpix_core::record::Component;
+use galpix_core::stages::sweep;
+use galpix_core::{
+    Bits, BudgetError, Colour, Demand, Galpixel, Galpixmap, Grid, Layout, Margin, Profile, Rounding, SetupError, Static,
+};
 
 /// The hash of all words.
 pub const HASH: u32 = 0x2782_2e88;
@@ -46,18 +42,11 @@ const POSITION_FRAC: u32 = 2;
 const VELOCITY_FRAC: u32 = 2;
 const ACCELERATION_FRAC: u32 = 1;
 
-/// Motion in x and y with acceleration; no depth.
-enum Tiny {}
+/// Motion in x and y with acceleration, eight bits a component; no depth.
+struct Tiny;
 
-impl Layout for Tiny {
-    type Colour = Gray4;
-    const LANES: Lanes = Lanes { velocity: true, acceleration: true, ..Lanes::NONE };
-}
-
-/// Eight bits a component.
-struct Widths;
-
-impl Profile for Widths {
+impl Profile for Tiny {
+    const LAYOUT: Layout = Layout { colour: Colour::GRAY4, velocity: true, acceleration: true, ..Layout::STILL };
     const BITS: Bits = {
         let component = Component {
             position_frac: POSITION_FRAC,
@@ -138,10 +127,10 @@ const fn place(state: u32) -> (i32, i32) {
 ///
 /// *Errors:* the first that is wrong.
 pub fn check(front: &mut [u32], back: &mut [u32], starts: &mut [u32]) -> Result<u32, Wrong> {
-    let grid = Grid::new(WIDTH, HEIGHT, Wings::NONE, starts).map_err(Wrong::Setup)?;
-    let budget = Static::<Widths>::new();
-    let mut front = Galpixmap::<Tiny, _>::new(grid, budget, front).map_err(Wrong::Setup)?;
-    let mut back = Galpixmap::<Tiny, _>::new(grid, budget, back).map_err(Wrong::Setup)?;
+    let grid = Grid::new(WIDTH, HEIGHT, Margin::NONE, starts).map_err(Wrong::Setup)?;
+    let format = Static::<Tiny>::new();
+    let mut front = Galpixmap::new(grid, format, front).map_err(Wrong::Setup)?;
+    let mut back = Galpixmap::new(grid, format, back).map_err(Wrong::Setup)?;
     let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let mut hash = crc.digest();
     for (case, (rounding, frame)) in (0..).zip(CASES) {
@@ -154,7 +143,7 @@ pub fn check(front: &mut [u32], back: &mut [u32], starts: &mut [u32]) -> Result<
                 let (x, y) = place(state);
                 front.store(x, y, &galpixel(both(state), state as u8));
             }
-            let tally = sweep::sweep(&front, &mut back, &mut [], rounding, frame);
+            let tally = sweep(&front, &mut back, &mut [], rounding, frame);
             if tally.moved != (ROW * COLUMN) as u32 || tally.lost + tally.collided > 0 {
                 return Err(Wrong::Tally);
             }

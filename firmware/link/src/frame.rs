@@ -126,7 +126,8 @@ pub struct Status {
     pub rejected: Rejections,
     /// Frames that were not ready at their vsync.
     pub late: u32,
-    /// Ticks that the longest frame took since the last status, without those in which the device told one, and ticks from one vsync to the next.
+    /// Ticks that the longest frame took since the last status, without those in which the device told one, and ticks
+    /// from one vsync to the next.
     pub busy: u32,
     /// See [`Self::busy`].
     pub ticks: u32,

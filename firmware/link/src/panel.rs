@@ -1,17 +1,11 @@
 //! The displays that both ends know: their sizes, and how their galpixels are stored.
 
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::colour::{Colour, Gray4, Rgb565};
-use galpix_core::error::BudgetError;
-use galpix_core::frame::{Inpainting, Settings};
-use galpix_core::galpixel::{Fixed, Profile, Static};
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::map::OfGalpixel;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::state_words;
 use galpix_core::inpaint::validity::Gamma;
-use galpix_core::layout::{Lanes, Layout};
-use galpix_core::record::{Field, Record, Scale};
+use galpix_core::inpaint::{levels, map};
+use galpix_core::record::{Component, Field, Scale};
+use galpix_core::{Bits, BudgetError, Colour, Demand, Inpainting, Layout, Profile, Record, Settings, Static};
 
 use crate::CRC;
 use crate::frame::MAX_WORD_BYTES;
@@ -20,7 +14,7 @@ use crate::frame::MAX_WORD_BYTES;
 /// galpixels.
 pub const VERSION: u8 = 1;
 
-/// A display, as a type. `Static<Self>` is the budget of its maps.
+/// A display, as a type. `Static<Self>` is the format of its maps.
 pub trait Panel: Profile + Sized {
     /// What it is called.
     const NAME: &'static str;
@@ -28,20 +22,18 @@ pub trait Panel: Profile + Sized {
     const WIDTH: u16;
     /// Rows.
     const HEIGHT: u16;
-    /// What its galpixels carry.
-    type Layout: Layout;
 
     /// How its galpixels are stored.
-    const RECORD: Record = <Static<Self> as Fixed<Self::Layout>>::RECORD;
-    /// Cells of its map, which has no wings.
+    const RECORD: Record = Static::<Self>::RECORD;
+    /// Cells of its map, which has no margin.
     const CELLS: usize = Self::WIDTH as usize * Self::HEIGHT as usize;
     /// With what its frames are made. With few depths the surface next to another may be apart by a single step.
     const SETTINGS: Settings = Settings::for_depth(Self::RECORD.depth().bits as u32);
-    /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet hole: all
-    /// continue what is beside them.
+    /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet
+    /// hole: all continue what is beside them.
     const TELLS_SURFACES: bool;
     /// What push-pull fills in after a frame.
-    type Filling: OfGalpixel<Self::Layout>;
+    type Filling: map::Filling;
     /// How.
     const INPAINTING: Inpainting<'static> = Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero);
     /// Cells of the pyramid for it, and the words of their states.
@@ -85,7 +77,7 @@ impl Description {
     #[must_use]
     pub const fn of<P: Panel>() -> Self {
         // The hash of a picture takes 16 bits of each colour.
-        const { assert!(<P::Layout as Layout>::Colour::BITS <= 16) };
+        const { assert!(P::LAYOUT.colour.bits() <= 16) };
         Self {
             name: P::NAME,
             width: P::WIDTH,
@@ -139,6 +131,13 @@ impl Hashed {
         self.push(scale.acceleration_frac);
         self.push(scale.velocity_bits);
     }
+
+    /// Puts the lowest bit and the bits of the channel that `brightest` fills, and no other one.
+    const fn channel(&mut self, colour: Colour, brightest: [u8; 3]) {
+        let mask = colour.from_rgb888(brightest);
+        self.push(mask.trailing_zeros());
+        self.push(mask.count_ones());
+    }
 }
 
 /// The CRC-32 of everything that gives a stored galpixel its meaning, each number as one byte: [`VERSION`]; width and
@@ -177,12 +176,12 @@ pub const fn fingerprint<P: Panel>() -> u32 {
         component += 1;
     }
     hashed.push(record.luminosity_frac);
-    let channels = <P::Layout as Layout>::Colour::CHANNELS;
-    let mut channel = 0;
-    while channel < channels.len() {
-        hashed.push(channels[channel].shift);
-        hashed.push(channels[channel].bits);
-        channel += 1;
+    if P::LAYOUT.colour.is_gray() {
+        hashed.channel(P::LAYOUT.colour, [255; 3]);
+    } else {
+        hashed.channel(P::LAYOUT.colour, [255, 0, 0]);
+        hashed.channel(P::LAYOUT.colour, [0, 255, 0]);
+        hashed.channel(P::LAYOUT.colour, [0, 0, 255]);
     }
     CRC.checksum(hashed.bytes.split_at(hashed.length).0)
 }
@@ -199,19 +198,12 @@ const fn must(component: Result<Component, BudgetError>) -> Component {
 #[derive(Clone, Copy, Debug)]
 pub enum Oled {}
 
-/// What the galpixels of [`Oled`] carry: x and y with velocity only, 4-bit gray, 4-bit z that does not move, and one bit
-/// that tells an update from the one before.
-#[derive(Clone, Copy, Debug)]
-pub enum OledLayout {}
-
-impl Layout for OledLayout {
-    type Colour = Gray4;
-    const LANES: Lanes = Lanes { depth_bits: 4, tag_bits: 1, ..Lanes::VELOCITY_XY };
-}
-
 impl Profile for Oled {
-    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That fills
-    /// one word to its last bit.
+    /// x and y with velocity only, 4-bit gray, 4-bit z that does not move, and one bit that tells an update from the
+    /// one before.
+    const LAYOUT: Layout = Layout { tag_bits: 1, ..Layout::VELOCITY_GRAY4 };
+    /// Recognition in 32 frames, an update every 16: at most 4 cells a frame along a row and 2 along a column. That
+    /// fills one word to its last bit.
     const BITS: Bits = {
         let x = Demand { extent: 128, recog: 32, prop: 16 };
         let y = Demand { extent: 64, ..x };
@@ -224,7 +216,6 @@ impl Panel for Oled {
     const NAME: &'static str = "oled";
     const WIDTH: u16 = 128;
     const HEIGHT: u16 = 64;
-    type Layout = OledLayout;
     /// No: that would take 4.5 KiB, and a quarter of the work of a frame.
     const TELLS_SURFACES: bool = false;
     /// The colour only: the motion stays the one that the ladder gave. In one map no map before is left for quads.
@@ -233,23 +224,16 @@ impl Panel for Oled {
         Inpainting { quads: false, ..Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero) };
 }
 
-/// What the galpixels of [`Lcd`] carry: x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two
-/// bits that tell an update from those before.
-#[derive(Clone, Copy, Debug)]
-pub enum LcdLayout {}
-
-impl Layout for LcdLayout {
-    type Colour = Rgb565;
-    const LANES: Lanes = Lanes { depth_bits: 14, tag_bits: 2, depth_motion: false, ..Lanes::FULL };
-}
-
 /// A colour display of 320 x 240 pixels.
 #[derive(Clone, Copy, Debug)]
 pub enum Lcd {}
 
 impl Profile for Lcd {
-    /// Recognition in 16 frames, an update every 16: 96 bits, three words to their last bit. Recognition in 8 would take
-    /// six bits more, and a fourth word for them.
+    /// x and y with velocity and acceleration, RGB565, 14-bit z that does not move, and two bits that tell an update
+    /// from those before.
+    const LAYOUT: Layout = Layout { depth_bits: 14, tag_bits: 2, ..Layout::FLAT565 };
+    /// Recognition in 16 frames, an update every 16: 96 bits, three words to their last bit. Recognition in 8 would
+    /// take six bits more, and a fourth word for them.
     const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 320, recog: 16, prop: 16 }));
 }
 
@@ -257,7 +241,6 @@ impl Panel for Lcd {
     const NAME: &'static str = "lcd";
     const WIDTH: u16 = 320;
     const HEIGHT: u16 = 240;
-    type Layout = LcdLayout;
     const TELLS_SURFACES: bool = true;
     type Filling = Moving;
 }

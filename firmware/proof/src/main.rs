@@ -9,8 +9,8 @@
 //! `bad` there is one, to see that it does.
 //!
 //! The program is never run. `galpix-check machine-code` reads it: in what the `proof_` functions reach there must be
-//! no product, quotient, float or trap, and in each `planted_` function there is one. Push-pull, `proof_inpaint_`, multiplies: there
-//! a product may be, and nothing else.
+//! no product, quotient, float or trap, and in each `planted_` function there is one. Push-pull, `proof_inpaint_`,
+//! multiplies: there a product may be, and nothing else.
 
 #![no_std]
 #![no_main]
@@ -21,36 +21,38 @@ mod planted;
 
 use core::hint::black_box;
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::frame::{Inpainting, Settings, Work};
-use galpix_core::galpixel::{Galpixel, Profile};
-use galpix_core::grid::Wings;
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::pyramid::Cell;
 use galpix_core::inpaint::validity::Gamma;
-use galpix_core::layout::{Full, Shaded, Velocity565, VelocityGray4};
+use galpix_core::{Bits, Demand, Galpixel, Inpainting, Layout, Margin, Profile, Settings};
 
 /// A panel of up to 512 pixels a side.
 const DEMAND: Demand = Demand { extent: 512, recog: 8, prop: 16 };
+const WITH_ACCELERATION: Bits = Bits::must(Bits::derive(DEMAND));
+const WITHOUT_ACCELERATION: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
 
-/// With acceleration.
-struct Panel;
+macro_rules! profiles {
+    ($($profile:ident: $layout:ident, $bits:ident;)*) => {$(
+        struct $profile;
 
-impl Profile for Panel {
-    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
+        impl Profile for $profile {
+            const LAYOUT: Layout = Layout::$layout;
+            const BITS: Bits = $bits;
+        }
+    )*};
 }
 
-/// Without.
-struct PanelVelocity;
-
-impl Profile for PanelVelocity {
-    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
+profiles! {
+    VelocityGray4: VELOCITY_GRAY4, WITHOUT_ACCELERATION;
+    Velocity565: VELOCITY565, WITHOUT_ACCELERATION;
+    Full: FULL, WITH_ACCELERATION;
+    Shaded: SHADED, WITH_ACCELERATION;
 }
 
 /// What comes from outside.
 struct Inputs<'m> {
     size: [u32; 2],
-    wings: Wings,
+    margin: Margin,
     place: [i32; 2],
     frame: u32,
     settings: Settings,
@@ -74,10 +76,10 @@ fn run() {
         ([Cell::default(); 21], [Cell::default(); 21], [0; 2], [u32::MAX; 2]);
     let mut inputs = black_box(Inputs {
         size: [8, 8],
-        wings: Wings::NONE,
+        margin: Margin::NONE,
         place: [0; 2],
         frame: 0,
-        settings: Settings { work: Work::Skipping, ..Settings::for_depth(16) },
+        settings: Settings::for_depth(16),
         galpixel: Galpixel::default(),
         rows: &mut rows,
         window_rows: &mut window_rows,
@@ -89,9 +91,9 @@ fn run() {
         tints: &mut tints,
         states: &mut states,
     });
-    passes::call_all::<VelocityGray4, PanelVelocity>(&mut inputs);
-    passes::call_all::<Velocity565, PanelVelocity>(&mut inputs);
-    passes::call_all::<Full, Panel>(&mut inputs);
-    passes::call_all::<Shaded, Panel>(&mut inputs);
+    passes::call_all::<VelocityGray4>(&mut inputs);
+    passes::call_all::<Velocity565>(&mut inputs);
+    passes::call_all::<Full>(&mut inputs);
+    passes::call_all::<Shaded>(&mut inputs);
     planted::call_all(&mut inputs);
 }

@@ -1,7 +1,7 @@
 //! The registers of the boards, and what else needs `unsafe`: all of it in this crate, and nothing else in it.
 //!
-//! A [`Register`] can be made here only. Each constant of [`lm3s6965`] and [`vexpress`] is a 32-bit register that may be read
-//! and written at any time without breaking Rust's rules: none makes a device write to memory.
+//! A [`Register`] can be made here only. Each constant of [`lm3s6965`] and [`vexpress`] is a 32-bit register that may
+//! be read and written at any time without breaking Rust's rules: none makes a device write to memory.
 
 #![no_std]
 #![deny(missing_docs)]
@@ -58,8 +58,8 @@ macro_rules! registers {
 }
 pub(crate) use registers;
 
-/// The bytes of the stack that have been used since the start, where it was painted with `0xcccc_cccc` before. `end` and
-/// `start` are the lowest and the highest address of the stack.
+/// The bytes of the stack that have been used since the start, where it was painted with `0xcccc_cccc` before. `end`
+/// and `start` are the lowest and the highest address of the stack.
 ///
 /// # Safety
 ///

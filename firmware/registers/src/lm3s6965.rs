@@ -48,10 +48,12 @@ crate::registers! {
     UART0_ICR = 0x4000_c044;
 }
 
-/// Lets the interrupt with this number through to the processor: only a handler that is safe at any time may stand behind it.
+/// Lets the interrupt with this number through to the processor: only a handler that is safe at any time may stand
+/// behind it.
 pub fn unmask(interrupt: u16) {
     const ISER: usize = 0xe000_e100;
-    // SAFETY: one bit of a write-one-to-set register; the handlers of the firmware use atomics and critical sections only.
+    // SAFETY: one bit of a write-one-to-set register; the handlers of the firmware use atomics and critical sections
+    // only.
     unsafe { ((ISER + usize::from(interrupt >> 5) * 4) as *mut u32).write_volatile(1 << (interrupt & 31)) }
 }
 

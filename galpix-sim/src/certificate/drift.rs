@@ -1,7 +1,7 @@
 //! The rounding drift, by complete enumeration.
 
+use galpix_core::Rounding;
 use galpix_core::record::Scale;
-use galpix_core::rounding::Rounding;
 use rayon::prelude::*;
 
 use super::Method;

@@ -2,9 +2,8 @@
 
 use std::collections::HashMap;
 
-use galpix_core::budget::Component;
-use galpix_core::record::Scale;
-use galpix_core::rounding::Rounding;
+use galpix_core::Rounding;
+use galpix_core::record::{Component, Scale};
 
 use super::drift::{Drift, MOST_DOWN};
 use super::{Certificate, quantisation};

@@ -1,14 +1,13 @@
 use super::*;
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::layout::Lanes;
-use galpix_core::record::Record;
+use galpix_core::record::Component;
+use galpix_core::{Bits, Demand, Layout, Record};
 
 fn demand(prop: u32) -> Demand {
     Demand { extent: 1024, recog: 8, prop }
 }
 
 fn certificate(prop: u32, rounding: Rounding) -> Certificate {
-    let record = Record::plan(Bits::derive(demand(prop)).unwrap(), Lanes::FULL, 24).unwrap();
+    let record = Record::plan(Bits::derive(demand(prop)).unwrap(), Layout::FULL).unwrap();
     Certificate::of(&record.scales[0], true, rounding, prop)
 }
 
@@ -74,7 +73,7 @@ fn the_smallest_budget_keeps_the_error_and_none_smaller_does() {
         let (component, certificate) = smallest(ranges, Rounding::LowDiscrepancy, 16, asked).unwrap();
         assert!(certificate.total_px <= asked);
         for (position, velocity, acceleration) in [(1, 0, 0), (0, 1, 1), (0, 0, 1)] {
-            let shaved = component.shaved(galpix_core::budget::Shave {
+            let shaved = component.shaved(galpix_core::record::Shave {
                 position_frac: position,
                 velocity_frac: velocity,
                 acceleration_frac: acceleration,
@@ -105,8 +104,8 @@ fn an_error_that_no_budget_reaches_is_refused_with_what_is_reached() {
 /// Two states of one residue class drift alike: the lemma, on the kernel itself.
 #[test]
 fn states_of_one_class_drift_alike() {
-    use galpix_core::propagate::{step_position, step_velocity};
-    let record = Record::plan(Bits::derive(demand(16)).unwrap(), Lanes::FULL, 24).unwrap();
+    use galpix_core::stages::{step_position, step_velocity};
+    let record = Record::plan(Bits::derive(demand(16)).unwrap(), Layout::FULL).unwrap();
     let scale = record.scales[0];
     let drifts = |v: i32, a: i32, rounding: Rounding| -> Vec<i64> {
         let (mut r, mut velocity, mut exact) = (0, v, 0i64);

@@ -1,12 +1,9 @@
 //! `galpix budget`.
 
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use galpix_core::budget::{Bits, Component, Demand, Shave};
-use galpix_core::colour::Colour;
-use galpix_core::error::BudgetError;
-use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4, VelocityGray8};
-use galpix_core::record::Record;
-use galpix_core::rounding::Rounding;
+use galpix_core::record::{Component, Shave};
+use galpix_core::{Bits, BudgetError, Demand, Layout, Record, Rounding};
 use serde::Serialize;
 
 use super::choices::{RoundingChoice, pixels};
@@ -14,24 +11,35 @@ use super::{CliError, print, print_json};
 use crate::certificate::{Certificate, Method, smallest};
 use crate::experiment::BudgetReport;
 
-/// Layouts by name.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum LayoutChoice {
-    /// x, y, z with velocity and acceleration, RGB888, 16-bit z
-    #[default]
-    Full,
-    /// Full with an 8-bit object tag
-    Tagged,
-    /// Tagged with shading inertia
-    Shaded,
-    /// x and y with velocity and acceleration, RGB565, 16-bit z
-    Flat565,
-    /// x and y with velocity only, RGB565, 16-bit z
-    Velocity565,
-    /// x and y with velocity only, 8-bit gray, 8-bit z
-    VelocityGray8,
-    /// x and y with velocity only, 4-bit gray, 4-bit z
-    VelocityGray4,
+/// A layout by its name, with what it carries in words.
+#[derive(Clone, Copy, Debug)]
+struct LayoutChoice(&'static str, Layout, &'static str);
+
+/// All of them, the default first.
+const LAYOUTS: [LayoutChoice; 7] = [
+    LayoutChoice("full", Layout::FULL, "x, y, z with velocity and acceleration, RGB888, 16-bit z"),
+    LayoutChoice("tagged", Layout::TAGGED, "Full with an 8-bit object tag"),
+    LayoutChoice("shaded", Layout::SHADED, "Tagged with shading inertia"),
+    LayoutChoice("flat565", Layout::FLAT565, "x and y with velocity and acceleration, RGB565, 16-bit z"),
+    LayoutChoice("velocity565", Layout::VELOCITY565, "x and y with velocity only, RGB565, 16-bit z"),
+    LayoutChoice("velocity-gray8", Layout::VELOCITY_GRAY8, "x and y with velocity only, 8-bit gray, 8-bit z"),
+    LayoutChoice("velocity-gray4", Layout::VELOCITY_GRAY4, "x and y with velocity only, 4-bit gray, 4-bit z"),
+];
+
+impl Default for LayoutChoice {
+    fn default() -> Self {
+        LAYOUTS[0]
+    }
+}
+
+impl ValueEnum for LayoutChoice {
+    fn value_variants<'a>() -> &'a [Self] {
+        &LAYOUTS
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0).help(self.2))
+    }
 }
 
 /// Arguments of `galpix budget`.
@@ -139,23 +147,16 @@ struct DepthReport {
 impl Budget {
     /// Prints the budget.
     pub fn run(&self) -> Result<(), CliError> {
-        let printed = match self.layout {
-            LayoutChoice::Full => self.printed::<Full>("full"),
-            LayoutChoice::Tagged => self.printed::<Tagged>("tagged"),
-            LayoutChoice::Shaded => self.printed::<Shaded>("shaded"),
-            LayoutChoice::Flat565 => self.printed::<Flat565>("flat565"),
-            LayoutChoice::Velocity565 => self.printed::<Velocity565>("velocity565"),
-            LayoutChoice::VelocityGray8 => self.printed::<VelocityGray8>("velocity-gray8"),
-            LayoutChoice::VelocityGray4 => self.printed::<VelocityGray4>("velocity-gray4"),
-        }?;
+        let printed = self.printed()?;
         if self.json { print_json(&printed) } else { print(&text(&printed)) }
     }
 
-    fn printed<L: Layout>(&self, layout: &'static str) -> Result<Printed, CliError> {
+    fn printed(&self) -> Result<Printed, CliError> {
+        let LayoutChoice(name, layout, _) = self.layout;
         let impossible = |error: BudgetError| CliError::Unusable(format!("this budget cannot exist: {error}"));
         let demand = Demand { extent: self.extent, recog: self.recog, prop: self.prop };
         let rounding = self.rounding.into();
-        let bits = if L::LANES.acceleration { Bits::derive(demand) } else { Bits::derive_without_acceleration(demand) };
+        let bits = if layout.acceleration { Bits::derive(demand) } else { Bits::derive_without_acceleration(demand) };
         let bits = bits.map_err(impossible)?;
         let plane: Component = match self.max_error {
             Some(error) => smallest(bits.x, rounding, self.prop, error).map_err(CliError::unusable)?.0,
@@ -163,8 +164,8 @@ impl Budget {
         };
         let z = bits.z.shaved(shave(&self.shave_z)).map_err(impossible)?;
         let bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
-        let record = Record::plan(bits, L::LANES, L::Colour::BITS).map_err(impossible)?;
-        let certify = |rounding| Certificate::of(&record.scales[0], L::LANES.acceleration, rounding, self.prop);
+        let record = Record::plan(bits, layout).map_err(impossible)?;
+        let certify = |rounding| Certificate::of(&record.scales[0], layout.acceleration, rounding, self.prop);
         let certificate = certify(rounding);
         let roundings = Rounding::ALL.map(|rounding| {
             let certificate = certify(rounding);
@@ -176,9 +177,9 @@ impl Budget {
             }
         });
         Ok(Printed {
-            report: BudgetReport::of::<L>(demand, bits).map_err(impossible)?,
+            report: BudgetReport::of(demand, bits, &record),
             used_bits_per_galpixel: record.bits(),
-            layout,
+            layout: name,
             rounding: rounding.name(),
             depth: DepthReport {
                 stored_bits: u32::from(record.depth().bits),

@@ -1,8 +1,7 @@
 //! Arguments that several commands share.
 
 use clap::{Args, ValueEnum};
-use galpix_core::fill::Rung;
-use galpix_core::rounding::Rounding;
+use galpix_core::{FillMode, Rounding};
 
 use crate::capture::{AccelerationPolicy, ImportOptions};
 use crate::experiment::Request;
@@ -59,12 +58,12 @@ pub enum FillChoice {
 impl From<FillChoice> for Fill {
     fn from(choice: FillChoice) -> Self {
         match choice {
-            FillChoice::None => Rung::None.into(),
-            FillChoice::Hold => Rung::Hold.into(),
-            FillChoice::Debris => Rung::Debris.into(),
-            FillChoice::Bullet => Rung::Bullet.into(),
-            FillChoice::Galdebris => Rung::Galdebris.into(),
-            FillChoice::Extend => Rung::Extend.into(),
+            FillChoice::None => FillMode::None.into(),
+            FillChoice::Hold => FillMode::Hold.into(),
+            FillChoice::Debris => FillMode::Debris.into(),
+            FillChoice::Bullet => FillMode::Bullet.into(),
+            FillChoice::Galdebris => FillMode::Galdebris.into(),
+            FillChoice::Extend => FillMode::Extend.into(),
             FillChoice::PushPull => Kind::PushPull.into(),
             FillChoice::Metamer => Kind::Metamer.into(),
         }

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
-use galpix_core::fill::Rung;
-use galpix_core::rounding::Rounding;
+use galpix_core::{FillMode, Rounding};
 
 use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
@@ -163,7 +162,7 @@ impl Error {
             },
             kept: all(kept.is_empty()).map_or(kept, |()| Kept::ALL.to_vec()),
             roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
-            rungs: all(rungs.is_empty()).map_or(rungs, |()| Rung::ALL.map(Fill::from).to_vec()),
+            rungs: all(rungs.is_empty()).map_or(rungs, |()| FillMode::ALL.map(Fill::from).to_vec()),
             extent,
         })
     }

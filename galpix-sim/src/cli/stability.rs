@@ -4,8 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use galpix_core::budget::Demand;
-use galpix_core::rounding::Rounding;
+use galpix_core::{Demand, Rounding};
 
 use super::choices::RoundingChoice;
 use super::{CliError, print, print_json, say};

@@ -2,8 +2,7 @@
 
 use galpix_core::ddoc::splat::Splat;
 use galpix_core::ddoc::{self, DistortionMap, ONE, Settings, Tally};
-use galpix_core::error::SetupError;
-use galpix_core::grid::{Grid, Wings};
+use galpix_core::{Grid, Margin, SetupError};
 
 /// Bits of a depth word.
 pub const DEPTH_BITS: u32 = 24;
@@ -38,7 +37,7 @@ impl Memory {
         self.rows.resize(height, 0);
         self.owners.resize(depths.len(), 0);
         self.splats.resize(depths.len(), Splat::default());
-        let grid = Grid::new(width as u32, height as u32, Wings::NONE, &mut self.rows)?;
+        let grid = Grid::new(width as u32, height as u32, Margin::NONE, &mut self.rows)?;
         DistortionMap::new(grid, depths, settings, &mut self.owners, &mut self.splats)
     }
 }

@@ -25,7 +25,7 @@ pub mod worlds;
 use std::path::Path;
 
 use galpix_core::ddoc::{MOST_RADIUS, SYMMETRIC, Settings};
-use galpix_core::error::SetupError;
+use galpix_core::SetupError;
 
 use self::import::ImportError;
 use self::missing::Missing;

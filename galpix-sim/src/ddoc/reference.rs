@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use galpix_core::ddoc::{DistortionMap, Settings, Tally};
-use galpix_core::error::SetupError;
+use galpix_core::SetupError;
 
 use super::distortion::{self, Memory, depth_word};
 use super::raster::{Pin, Raster};

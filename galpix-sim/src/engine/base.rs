@@ -1,14 +1,9 @@
 //! The memory of the base.
 
-use galpix_core::edge;
-use galpix_core::frame::{Controller, Scratch};
-use galpix_core::galpixel::Chosen;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Grid;
-use galpix_core::layout::Layout;
+use galpix_core::{Controller, Dynamic, Galpixmap, Grid, Scratch, stages};
 
 use super::EngineError;
-use super::load::{core_wings, grid};
+use super::load::{grid, margin};
 use crate::update::Update;
 
 /// The memory of the base.
@@ -21,23 +16,23 @@ pub(super) struct Base {
 }
 
 impl Base {
-    pub fn new<L: Layout>(update: &Update, budget: Chosen<L>) -> Result<Self, EngineError> {
-        let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
+    pub fn new(update: &Update, format: Dynamic) -> Result<Self, EngineError> {
+        let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
         let grid = grid(update, &mut starts)?;
-        let words = Galpixmap::<L, _>::words(&grid, budget);
-        let (winners, edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+        let words = Galpixmap::words(&grid, format);
+        let (winners, edges) = (vec![0; grid.cells() as usize], vec![0; stages::words(&grid)]);
         Ok(Self { starts, front: vec![0; words], back: vec![0; words], winners, edges })
     }
 
-    pub fn controller<'p, L: Layout>(
+    pub fn controller<'p>(
         &'p mut self,
         update: &Update,
-        budget: Chosen<L>,
-    ) -> Result<Controller<'p, L, Chosen<L>>, EngineError> {
+        format: Dynamic,
+    ) -> Result<Controller<'p, Dynamic>, EngineError> {
         let grid = grid(update, &mut self.starts)?;
         Ok(Controller::new(
-            Galpixmap::new(grid, budget, &mut self.front)?,
-            Galpixmap::new(grid, budget, &mut self.back)?,
+            Galpixmap::new(grid, format, &mut self.front)?,
+            Galpixmap::new(grid, format, &mut self.back)?,
             Scratch { winners: &mut self.winners, edges: &mut self.edges },
         )?)
     }

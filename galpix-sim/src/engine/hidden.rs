@@ -1,13 +1,7 @@
 //! What is handed over beside an update, and the memory that it takes as layers of the core.
 
-use galpix_core::edge;
-use galpix_core::error::SetupError;
-use galpix_core::frame::Scratch;
-use galpix_core::galpixel::{Budget, Chosen};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Grid;
-use galpix_core::layers::{Displacement, Layer, displacement_word, seat_words};
-use galpix_core::layout::Layout;
+use galpix_core::layers::{Displacement, Layer, composite_words, displacement_word};
+use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
 
 use super::{LoadTally, load_at};
 use crate::update::Update;
@@ -17,7 +11,7 @@ use crate::update::Update;
 pub enum Beside<'u> {
     /// Its samples are where they are seen, and move like the update's.
     Moving(&'u Update),
-    /// Its samples are stored elsewhere, see [`Layer::anchored`].
+    /// Its samples are stored elsewhere, see [`Layer::stationary`].
     Anchored {
         /// The samples, where they are stored.
         update: &'u Update,
@@ -38,7 +32,7 @@ impl<'u> Beside<'u> {
     }
 
     /// Writes its samples into a map.
-    pub(super) fn load<L: Layout, B: Budget<L>>(&self, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
+    pub(super) fn load(&self, map: &mut Galpixmap<'_, Dynamic>) -> LoadTally {
         let offset = |sample: usize| match self {
             Self::Moving(_) => [0.0; 2],
             Self::Anchored { offsets, .. } => offsets.get(sample).copied().unwrap_or_default(),
@@ -48,7 +42,6 @@ impl<'u> Beside<'u> {
 }
 
 /// The memory of a layer.
-#[derive(Default)]
 pub(super) struct Memory {
     maps: [Vec<u32>; 3],
     winners: Vec<u32>,
@@ -58,18 +51,17 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// For a layer over a grid; for one that is not there too.
-    pub fn new<L: Layout, B: Budget<L>>(grid: &Grid<'_>, budget: B, beside: Option<&Beside<'_>>) -> Self {
-        let map = || vec![0; Galpixmap::<L, B>::words(grid, budget)];
+    /// For a layer over a grid.
+    pub fn new(grid: &Grid<'_>, format: Dynamic, beside: &Beside<'_>) -> Self {
+        let map = || vec![0; Galpixmap::words(grid, format)];
         let winners = vec![0; grid.cells() as usize];
-        let seats = vec![0; seat_words(grid)];
+        let seats = vec![0; composite_words(grid)];
         match beside {
-            None => Self { maps: [map(), map(), Vec::new()], seats, ..Self::default() },
-            Some(Beside::Moving(_)) => {
-                let edges = vec![0; edge::words(grid)];
+            Beside::Moving(_) => {
+                let edges = vec![0; stages::words(grid)];
                 Self { maps: [map(), map(), Vec::new()], winners, edges, seats, displacements: Vec::new() }
             }
-            Some(Beside::Anchored { displacements, .. }) => {
+            Beside::Anchored { displacements, .. } => {
                 let displacements = displacements.iter().map(|&place| displacement_word(place)).collect();
                 Self { maps: [map(), map(), map()], winners, edges: Vec::new(), seats, displacements }
             }
@@ -79,16 +71,12 @@ impl Memory {
     /// The layer over this memory, still empty.
     ///
     /// *Errors:* an anchored layer with fewer displacements than cells.
-    pub fn layer<'p, L: Layout>(
-        &'p mut self,
-        grid: Grid<'p>,
-        budget: Chosen<L>,
-    ) -> Result<Layer<'p, L, Chosen<L>>, SetupError> {
+    pub fn layer<'p>(&'p mut self, grid: Grid<'p>, format: Dynamic) -> Result<Layer<'p, Dynamic>, SetupError> {
         let Self { maps: [front, back, stored], winners, edges, seats, displacements } = self;
-        let (front, back) = (Galpixmap::new(grid, budget, front)?, Galpixmap::new(grid, budget, back)?);
+        let (front, back) = (Galpixmap::new(grid, format, front)?, Galpixmap::new(grid, format, back)?);
         if stored.is_empty() {
             return Layer::new(front, back, Scratch { winners, edges }, seats);
         }
-        Layer::anchored(Galpixmap::new(grid, budget, stored)?, displacements, front, back, winners, seats)
+        Layer::stationary(Galpixmap::new(grid, format, stored)?, displacements, front, back, winners, seats)
     }
 }

@@ -1,11 +1,7 @@
 //! An update as galpixels of a map.
 
 use fixed::types::I32F32;
-use galpix_core::error::SetupError;
-use galpix_core::galpixel::{Budget, Class, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings as CoreWings};
-use galpix_core::layout::Layout;
+use galpix_core::{Class, Format, Galpixel, Galpixmap, Grid, Margin, SetupError};
 
 use crate::update::{Known, Sample, Update, Wings};
 
@@ -21,15 +17,15 @@ pub struct LoadTally {
 }
 
 /// Writes the samples of an update into a map, quantised to its budget.
-pub fn load<L: Layout, B: Budget<L>>(update: &Update, map: &mut Galpixmap<'_, L, B>) -> LoadTally {
+pub fn load<F: Format>(update: &Update, map: &mut Galpixmap<'_, F>) -> LoadTally {
     load_at(update, |_| [0.0; 2], map)
 }
 
 /// The same with samples that are not in the middle of their cells.
-pub(super) fn load_at<L: Layout, B: Budget<L>>(
+pub(super) fn load_at<F: Format>(
     update: &Update,
     offset: impl Fn(usize) -> [f64; 2],
-    map: &mut Galpixmap<'_, L, B>,
+    map: &mut Galpixmap<'_, F>,
 ) -> LoadTally {
     let mut tally = LoadTally::default();
     let width = update.width.max(1);
@@ -64,13 +60,13 @@ pub fn galpixel(sample: &Sample) -> Galpixel {
 }
 
 /// The wings of an update, as the core has them.
-pub(crate) fn core_wings(wings: Wings) -> CoreWings {
+pub(crate) fn margin(wings: Wings) -> Margin {
     let cells = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    CoreWings { left: cells(wings.left), right: cells(wings.right), top: cells(wings.top), bottom: cells(wings.bottom) }
+    Margin { left: cells(wings.left), right: cells(wings.right), top: cells(wings.top), bottom: cells(wings.bottom) }
 }
 
 /// The grid of an update.
 pub(crate) fn grid<'g>(update: &Update, starts: &'g mut [u32]) -> Result<Grid<'g>, SetupError> {
     let (width, height) = (update.display_width() as u32, update.display_height() as u32);
-    Grid::new(width, height, core_wings(update.wings), starts)
+    Grid::new(width, height, margin(update.wings), starts)
 }

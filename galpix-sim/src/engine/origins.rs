@@ -1,8 +1,7 @@
 //! Which sample of which layer each cell holds and shows.
 
-use galpix_core::fill::FILLED;
-use galpix_core::galpixel::{Budget, Class};
-use galpix_core::layout::Layout;
+use galpix_core::stages::FILLED;
+use galpix_core::{Class, Dynamic};
 
 use super::hidden::Beside;
 use super::show::Show;
@@ -38,7 +37,7 @@ impl Origins {
     }
 
     /// Follows a step; `beside` are the layers that it was made with.
-    pub fn follow<'p, L: Layout, B: Budget<L>>(&mut self, show: &impl Show<'p, L, B>, beside: &[Beside<'_>]) {
+    pub fn follow<'p>(&mut self, show: &impl Show<'p, Dynamic>, beside: &[Beside<'_>]) {
         for (layer, own) in self.own.iter_mut().enumerate() {
             // Samples that stay where they are stored keep their numbers.
             if layer == 0 || matches!(beside[layer - 1], Beside::Moving(_)) {
@@ -48,9 +47,9 @@ impl Origins {
     }
 
     /// Notes what is shown; `seen` are the cells of the display.
-    pub fn look<'p, L: Layout, B: Budget<L>>(
+    pub fn look<'p>(
         &mut self,
-        show: &impl Show<'p, L, B>,
+        show: &impl Show<'p, Dynamic>,
         beside: &[Beside<'_>],
         seen: impl Iterator<Item = u32>,
     ) {

@@ -1,28 +1,25 @@
 //! One map or several layers: what shows frames.
 
-use galpix_core::error::SetupError;
-use galpix_core::frame::{Controller, Inpainting, Settings};
-use galpix_core::galpixel::Budget;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::inpaint::map::OfGalpixel;
+use galpix_core::inpaint::map::Filling;
 use galpix_core::inpaint::metamer::{self, Recipe};
 use galpix_core::inpaint::pyramid::Pyramid;
 use galpix_core::layers::Layers;
-use galpix_core::layout::Layout;
-use galpix_core::tally::Tally;
+use galpix_core::{Controller, Format, Galpixmap, Inpainting, Settings, SetupError, Tally};
 
 /// A [`Controller`], or several [`Layers`].
-pub trait Show<'p, L: Layout, B: Budget<L>> {
+pub trait Show<'p, F> {
     /// Makes the next frame. What is moved, lost, collided and saturated is counted over all layers, all else is the base's.
     fn step(&mut self, settings: &Settings) -> Tally;
+    /// The same by instructions that do not depend on the picture.
+    fn step_constant_time(&mut self, settings: &Settings) -> Tally;
     /// What is shown.
-    fn front(&self) -> &Galpixmap<'p, L, B>;
+    fn front(&self) -> &Galpixmap<'p, F>;
     /// Where the galpixels of a layer's own map came from; layer 0 is the base.
     fn winners(&self, layer: usize) -> &[u32];
     /// Which layer a cell shows.
     fn layer_at(&self, cell: u32) -> usize;
     /// See [`Controller::inpaint`].
-    fn inpaint<V: OfGalpixel<L>>(
+    fn inpaint<V: Filling>(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
@@ -40,12 +37,16 @@ pub trait Show<'p, L: Layout, B: Budget<L>> {
     ) -> Result<u32, SetupError>;
 }
 
-impl<'p, L: Layout, B: Budget<L>> Show<'p, L, B> for Controller<'p, L, B> {
+impl<'p, F: Format> Show<'p, F> for Controller<'p, F> {
     fn step(&mut self, settings: &Settings) -> Tally {
         self.step(settings)
     }
 
-    fn front(&self) -> &Galpixmap<'p, L, B> {
+    fn step_constant_time(&mut self, settings: &Settings) -> Tally {
+        self.step_constant_time(settings)
+    }
+
+    fn front(&self) -> &Galpixmap<'p, F> {
         self.front()
     }
 
@@ -57,7 +58,7 @@ impl<'p, L: Layout, B: Budget<L>> Show<'p, L, B> for Controller<'p, L, B> {
         0
     }
 
-    fn inpaint<V: OfGalpixel<L>>(
+    fn inpaint<V: Filling>(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
@@ -77,19 +78,18 @@ impl<'p, L: Layout, B: Budget<L>> Show<'p, L, B> for Controller<'p, L, B> {
     }
 }
 
-impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Show<'p, L, B> for Layers<'p, L, B, HIDDEN> {
+impl<'p, F: Format> Show<'p, F> for Layers<'p, '_, F> {
     fn step(&mut self, settings: &Settings) -> Tally {
-        let tally = self.step(settings);
-        tally.hidden.iter().fold(tally.base, |sum, layer| Tally {
-            moved: sum.moved + layer.moved,
-            lost: sum.lost + layer.lost,
-            collided: sum.collided + layer.collided,
-            saturated: sum.saturated + layer.saturated,
-            ..sum
-        })
+        let base = self.step(settings);
+        over_all_layers(base, self)
     }
 
-    fn front(&self) -> &Galpixmap<'p, L, B> {
+    fn step_constant_time(&mut self, settings: &Settings) -> Tally {
+        let base = self.step_constant_time(settings);
+        over_all_layers(base, self)
+    }
+
+    fn front(&self) -> &Galpixmap<'p, F> {
         self.front()
     }
 
@@ -101,7 +101,7 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Show<'p, L, B> for Layers
         self.layer_at(cell)
     }
 
-    fn inpaint<V: OfGalpixel<L>>(
+    fn inpaint<V: Filling>(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
@@ -119,4 +119,15 @@ impl<'p, L: Layout, B: Budget<L>, const HIDDEN: usize> Show<'p, L, B> for Layers
     ) -> Result<u32, SetupError> {
         self.synthesise(settings, inpainting, recipe, scratch)
     }
+}
+
+/// Adds what the other layers counted in the last step to what the base did.
+fn over_all_layers<F: Format>(base: Tally, layers: &Layers<'_, '_, F>) -> Tally {
+    layers.hidden().iter().map(galpix_core::layers::Layer::tally).fold(base, |sum, layer| Tally {
+        moved: sum.moved + layer.moved,
+        lost: sum.lost + layer.lost,
+        collided: sum.collided + layer.collided,
+        saturated: sum.saturated + layer.saturated,
+        ..sum
+    })
 }

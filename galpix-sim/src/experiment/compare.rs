@@ -1,7 +1,5 @@
 //! A frame beside the truth: as a picture, and galpixel by galpixel.
 
-use galpix_core::layout::Layout;
-
 use super::Source;
 use super::report::{PositionReport, TruthReport};
 use crate::area;
@@ -56,10 +54,10 @@ impl Errors {
 }
 
 /// How far the galpixels of a frame are from where they should be: of those that `cell` says are samples of the update, and which.
-pub(crate) fn position<L: Layout>(
+pub(crate) fn position(
     source: &Source,
     update: &Update,
-    frame: &Frame<'_, L>,
+    frame: &Frame<'_>,
     cell: impl Fn(u32) -> Option<usize>,
 ) -> Option<PositionReport> {
     let wings = [update.wings.left as f64, update.wings.top as f64];

@@ -1,10 +1,6 @@
 //! What a run reports, as it is written to JSON.
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::colour::Colour;
-use galpix_core::error::BudgetError;
-use galpix_core::layout::Layout;
-use galpix_core::record::Record;
+use galpix_core::{Bits, Demand, Record};
 use serde::Serialize;
 
 use crate::capture::Census;
@@ -40,12 +36,10 @@ pub struct BudgetReport {
 }
 
 impl BudgetReport {
-    /// The report of a budget for a layout.
-    ///
-    /// *Errors:* a budget that does not fit the layout.
-    pub fn of<L: Layout>(demand: Demand, bits: Bits) -> Result<Self, BudgetError> {
-        let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
-        Ok(Self {
+    /// Reports the widths of a stored form, and the design numbers that they come from.
+    #[must_use]
+    pub fn of(demand: Demand, bits: Bits, record: &Record) -> Self {
+        Self {
             extent: demand.extent,
             recog: demand.recog,
             prop: demand.prop,
@@ -58,7 +52,7 @@ impl BudgetReport {
             motion_bytes_per_galpixel: f64::from(bits.x.motion_bits() + bits.y.motion_bits() + bits.z.motion_bits())
                 / 8.0,
             stored_bytes_per_galpixel: record.bytes(),
-        })
+        }
     }
 }
 

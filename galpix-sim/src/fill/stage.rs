@@ -1,8 +1,5 @@
 //! The core's inpainting over memory of the host.
 
-use galpix_core::frame::{Inpainting, Settings};
-use galpix_core::galpixel::Budget;
-use galpix_core::grid::Grid;
 use galpix_core::inpaint::features::Workspace;
 use galpix_core::inpaint::levels;
 use galpix_core::inpaint::metamer::{self, Recipe};
@@ -13,7 +10,7 @@ use galpix_core::inpaint::push_pull::Rule;
 use galpix_core::inpaint::pyramid::{Cell, DEPTH_BITS, Pyramid, state_words};
 use galpix_core::inpaint::statistics::Moments;
 use galpix_core::inpaint::tone::Tone;
-use galpix_core::layout::Layout;
+use galpix_core::{Format, Grid, Inpainting, Settings};
 
 use super::{Inpaint, Kind, in_fovea};
 use crate::engine::Show;
@@ -78,7 +75,7 @@ impl Inpainter {
     }
 
     /// Inpaints what the last step uncovered, which was made with `settings`.
-    pub fn paint<'p, L: Layout, B: Budget<L>>(&mut self, show: &mut impl Show<'p, L, B>, settings: &Settings) {
+    pub fn paint<'p, F: Format>(&mut self, show: &mut impl Show<'p, F>, settings: &Settings) {
         let depth_bits = u32::from(show.front().record().depth().bits);
         let inpainting = if self.inpaint.depth_aware {
             let threshold = settings.edge_threshold >> depth_bits.saturating_sub(DEPTH_BITS);
@@ -107,11 +104,11 @@ impl Inpainter {
 
 /// A bit for each cell of a map that is on the display and outside of the fovea, or in the wings.
 fn around(grid: &Grid<'_>, radius: u32) -> Vec<u32> {
-    let wings = grid.wings();
+    let margin = grid.margin();
     let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
     let mut mask = vec![u32::MAX; grid.cells().div_ceil(u32::BITS) as usize];
     for cell in (0..width * height).filter(|&cell| in_fovea(Some(radius), cell, width, height)) {
-        let (x, y) = ((cell % width) as u32 + wings.left, (cell / width) as u32 + wings.top);
+        let (x, y) = ((cell % width) as u32 + margin.left, (cell / width) as u32 + margin.top);
         if let Some(cell) = grid.cell(x as i32, y as i32) {
             mask[(cell / u32::BITS) as usize] &= !(1 << (cell % u32::BITS));
         }
@@ -121,15 +118,15 @@ fn around(grid: &Grid<'_>, radius: u32) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
-    use galpix_core::grid::Wings;
+    use galpix_core::Margin;
 
     use super::*;
 
     #[test]
     fn only_the_fovea_is_left_out() {
-        let wings = Wings { left: 3, right: 0, top: 1, bottom: 2 };
+        let margin = Margin { left: 3, right: 0, top: 1, bottom: 2 };
         let mut starts = [0; 8];
-        let grid = Grid::new(5, 5, wings, &mut starts).unwrap();
+        let grid = Grid::new(5, 5, margin, &mut starts).unwrap();
         let mask = around(&grid, 1);
         let left_out: Vec<u32> =
             (0..grid.cells()).filter(|cell| mask[*cell as usize / 32] >> (cell % 32) & 1 == 0).collect();

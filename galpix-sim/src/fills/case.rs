@@ -1,6 +1,6 @@
 //! The fills that are compared.
 
-use galpix_core::fill::Rung;
+use galpix_core::FillMode;
 
 use crate::fill::{Fill, Gamma, Inpaint, Kind};
 
@@ -14,7 +14,7 @@ pub struct Case {
 }
 
 /// What is compared with: every cell of it is black that nothing reached.
-pub const NOTHING: Case = Case { name: "none", fill: Fill::Rung(Rung::None) };
+pub const NOTHING: Case = Case { name: "none", fill: Fill::Rung(FillMode::None) };
 
 /// Push-pull as it was before depth was taken into account.
 pub const CLASSIC: &str = "push-pull-classic";
@@ -23,7 +23,7 @@ pub const CLASSIC: &str = "push-pull-classic";
 /// classic push-pull has no gamma.
 #[must_use]
 pub fn all(gamma: Option<Gamma>, fovea: Option<u32>) -> Vec<Case> {
-    let rungs = Rung::ALL.map(|rung| Case { name: rung.name(), fill: rung.into() });
+    let rungs = FillMode::ALL.map(|rung| Case { name: rung.name(), fill: rung.into() });
     let inpainted = Kind::ALL.map(|kind| {
         let usual = Inpaint::new(kind);
         let fill = Fill::Inpaint(Inpaint { gamma: gamma.unwrap_or(usual.gamma), fovea, ..usual });

@@ -1,9 +1,5 @@
-use galpix_core::fill::{FILLED, Rung};
-use galpix_core::frame::{Controller, Scratch, Settings};
-use galpix_core::galpixel::{Class, Static};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings as CoreWings};
-use galpix_core::rounding::Rounding;
+use galpix_core::stages::{self, FILLED};
+use galpix_core::{Class, Controller, FillMode, Galpixmap, Grid, Margin, Rounding, Scratch, Settings, Static};
 use galpix_link::panel::{Lcd, Oled, Panel};
 
 use super::*;
@@ -13,20 +9,20 @@ use crate::update::{DepthKind, Known, Wings};
 /// Calls `look` with every galpixel that is left after `frames` frames of a panel: the cell that it entered at, and its place.
 fn after<P: Panel>(galpixels: &[Galpixel], frames: u32, mut look: impl FnMut([usize; 2], [f64; 2])) {
     let (width, height) = (u32::from(P::WIDTH), u32::from(P::HEIGHT));
-    let mut starts = vec![0; Grid::rows(height, CoreWings::NONE)];
-    let grid = Grid::new(width, height, CoreWings::NONE, &mut starts).unwrap();
+    let mut starts = vec![0; Grid::rows(height, Margin::NONE)];
+    let grid = Grid::new(width, height, Margin::NONE, &mut starts).unwrap();
     let (mut front, mut back) = (vec![0; P::MAP_WORDS], vec![0; P::MAP_WORDS]);
-    let mut front = Galpixmap::<P::Layout, _>::new(grid, Static::<P>::new(), &mut front).unwrap();
+    let mut front = Galpixmap::new(grid, Static::<P>::new(), &mut front).unwrap();
     let back = Galpixmap::new(grid, Static::<P>::new(), &mut back).unwrap();
     for (index, galpixel) in galpixels.iter().enumerate() {
         let (x, y) = (index % P::WIDTH as usize, index / P::WIDTH as usize);
         assert_eq!(front.store(x as i32, y as i32, galpixel), Some(0), "a field of ({x}, {y}) was clamped");
     }
-    let (mut winners, mut edges) = (vec![0; P::CELLS], vec![0; galpix_core::edge::words(&grid)]);
+    let (mut winners, mut edges) = (vec![0; P::CELLS], vec![0; stages::words(&grid)]);
     let scratch = Scratch { winners: &mut winners, edges: &mut edges };
     let mut controller = Controller::new(front, back, scratch).unwrap();
     let settings = Settings::for_depth(u32::from(P::RECORD.depth().bits));
-    assert_eq!(settings.rung, Rung::Extend, "a rung that keeps a winner map");
+    assert_eq!(settings.fill_mode, FillMode::Extend, "a rung that keeps a winner map");
     let mut origins: Vec<Option<usize>> = (0..P::CELLS).map(Some).collect();
     for _ in 0..frames {
         controller.step(&settings);

@@ -10,8 +10,8 @@ pub mod report;
 mod run;
 mod world;
 
-use galpix_core::budget::{Bits, Demand};
 use galpix_core::objects::Limits;
+use galpix_core::{Bits, Demand};
 
 pub use pinned::PinnedReport;
 use report::{GraftReport, WayReport};

@@ -1,9 +1,6 @@
 //! Instruments over a picture: pinned, as galpixels of the one map, or painted into the picture.
 
-use galpix_core::budget::Bits;
-use galpix_core::colour::Colour;
-use galpix_core::layout::{Full, Layout};
-use galpix_core::record::Record;
+use galpix_core::{Bits, Dynamic, Format, Layout};
 use serde::Serialize;
 
 use crate::engine::{Engine, EngineError};
@@ -87,8 +84,9 @@ pub(super) fn compare(scene: &dyn Scene, overlay: &Overlay) -> Result<PinnedRepo
 fn pictures(update: &Update, frames: u32) -> Result<Vec<Picture>, EngineError> {
     let request = Request::default();
     let bits = Bits::derive(experiment::demand(update, frames, &request))?;
-    let record = Record::plan(bits, Full::LANES, <Full as Layout>::Colour::BITS)?;
-    let engine = Engine::<Full>::new(bits, experiment::settings(&record, update.depth_kind, &request))?;
+    // RGB888: colours that are pinned are shown as they are.
+    let format = Dynamic::new(bits, Layout::FULL)?;
+    let engine = Engine::new(format, experiment::settings(format.record(), update.depth_kind, &request));
     let mut pictures = Vec::new();
     engine.run(update, frames, |frame| {
         if frame.number > 0 {
@@ -97,5 +95,3 @@ fn pictures(update: &Update, frames: u32) -> Result<Vec<Picture>, EngineError> {
     })?;
     Ok(pictures)
 }
-
-const _: () = assert!(<Full as Layout>::Colour::BITS == 24, "colours that are pinned are shown as they are");

@@ -4,12 +4,9 @@ use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use galpix_core::disocclusion::{self, Reach, Tally};
-use galpix_core::galpixel::Chosen;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Grid;
-use galpix_core::layout::Layout;
+use galpix_core::{Dynamic, Galpixmap, Grid};
 
-use crate::engine::{EngineError, core_wings, grid, load};
+use crate::engine::{EngineError, grid, load, margin};
 use crate::update::Update;
 
 /// A disocclusion map.
@@ -34,11 +31,11 @@ impl Culling {
 /// The disocclusion map of an update for `frames` frames; more than [`Reach::MOST_FRAMES`] count as that.
 ///
 /// *Errors:* an update that cannot be laid out.
-pub fn culling<L: Layout>(update: &Update, budget: Chosen<L>, frames: u32) -> Result<Culling, EngineError> {
-    let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
+pub fn culling(update: &Update, format: Dynamic, frames: u32) -> Result<Culling, EngineError> {
+    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
     let grid = grid(update, &mut starts)?;
-    let mut memory = vec![0; Galpixmap::<L, _>::words(&grid, budget)];
-    let mut map = Galpixmap::<L, _>::new(grid, budget, &mut memory)?;
+    let mut memory = vec![0; Galpixmap::words(&grid, format)];
+    let mut map = Galpixmap::new(grid, format, &mut memory)?;
     load(update, &mut map);
     let mut extents = vec![0; grid.cells() as usize];
     let reach = Reach { tears: false, ..Reach::new(frames, u32::from(map.record().depth().bits)) };

@@ -1,9 +1,7 @@
 //! The disocclusion map as a picture.
 
-use galpix_core::budget::Bits;
 use galpix_core::disocclusion::Extents;
-use galpix_core::galpixel::Chosen;
-use galpix_core::layout::Full;
+use galpix_core::{Bits, Dynamic, Layout};
 
 use super::Plan;
 use crate::engine::EngineError;
@@ -25,8 +23,8 @@ pub fn picture(source: &Source, plan: &Plan) -> Result<Crop, ExperimentError> {
     let frames = plan.request.frames.unwrap_or(source.frames());
     let bits = Bits::derive(experiment::demand(&update, frames, &plan.request))?;
     // The map does not know what brightens.
-    let budget = Chosen::<Full>::new(bits).map_err(EngineError::from)?;
-    let map = culling(&update, budget, frames)?;
+    let format = Dynamic::new(bits, Layout::FULL).map_err(EngineError::from)?;
+    let map = culling(&update, format, frames)?;
     Ok(Crop { name: "what may be uncovered".into(), picture: coloured(&update, &map) })
 }
 

@@ -1,15 +1,9 @@
 //! The time of a frame in each way, in the form that the simulator runs: a budget chosen at run time.
 
-use galpix_core::budget::Bits;
-use galpix_core::colour::Colour;
-use galpix_core::galpixel::Chosen;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::Grid;
-use galpix_core::layout::{Full, Layout, Shaded};
-use galpix_core::record::Record;
+use galpix_core::{Bits, Dynamic, Format, Galpixmap, Grid};
 
 use super::Plan;
-use crate::engine::{Beside, Engine, EngineError, core_wings, grid};
+use crate::engine::{Beside, Engine, EngineError, grid, margin};
 use crate::experiment::{self, ExperimentError, Source};
 use crate::hidden::{Carried, Layer, Way};
 use crate::tradeoff::timing::{Contender, Effort, Maker, Time, race};
@@ -25,26 +19,14 @@ const LARGE: usize = 400_000;
 /// The time of a frame of a way, and the microseconds that its disocclusion map took, where there is one.
 pub type WayTime = (Option<Time>, Option<f64>);
 
-/// The times of a source, one a way.
-///
-/// *Errors:* a budget that cannot exist or does not fit.
-pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
-    let update = source.update();
-    if experiment::needs_luminosity(&update) {
-        timed::<Shaded>(source, &update, plan, ways)
-    } else {
-        timed::<Full>(source, &update, plan, ways)
-    }
-}
-
 /// An update and what is handed over beside it.
-struct Layered<'u, L> {
-    engine: Engine<L>,
+struct Layered<'u> {
+    engine: Engine,
     carried: &'u Carried,
     bytes: usize,
 }
 
-impl<L: Layout> Contender for Layered<'_, L> {
+impl Contender for Layered<'_> {
     fn bytes(&self) -> usize {
         self.bytes
     }
@@ -69,29 +51,27 @@ impl<L: Layout> Contender for Layered<'_, L> {
     }
 }
 
-fn timed<L: Layout + 'static>(
-    source: &Source,
-    update: &Update,
-    plan: &Plan,
-    ways: &[Way],
-) -> Result<Vec<WayTime>, ExperimentError> {
+/// The times of a source, one a way.
+///
+/// *Errors:* a budget that cannot exist or does not fit.
+pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
+    let update = &source.update();
     let frames = plan.request.frames.unwrap_or(source.frames());
     let bits = Bits::derive(experiment::demand(update, frames, &plan.request))?;
-    let record = Record::plan(bits, L::LANES, L::Colour::BITS)?;
-    let budget = Chosen::<L>::new(bits).map_err(EngineError::from)?;
-    let settings = experiment::settings(&record, update.depth_kind, &plan.request);
-    let mut starts = vec![0; Grid::rows(update.display_height() as u32, core_wings(update.wings))];
-    let bytes = 4 * Galpixmap::<L, _>::words(&grid(update, &mut starts).map_err(EngineError::from)?, budget);
+    let format = Dynamic::new(bits, experiment::layout_for(update))?;
+    let settings = experiment::settings(format.record(), update.depth_kind, &plan.request);
+    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
+    let bytes = 4 * Galpixmap::words(&grid(update, &mut starts).map_err(EngineError::from)?, format);
     let carried: Vec<Carried> = ways
         .iter()
-        .map(|&way| experiment::carried::<L>(source, update, way, bits, frames))
+        .map(|&way| experiment::carried(source, update, way, format, frames))
         .collect::<Result<_, _>>()?;
     let makers: Vec<Maker<'_>> = carried
         .iter()
         .map(|carried| {
             let inpaint = plan.request.fill.inpaint();
             let maker: Maker<'_> = Box::new(move || {
-                let engine = Engine::<L>::new(bits, settings).ok()?.inpainting(inpaint);
+                let engine = Engine::new(format, settings).inpainting(inpaint);
                 Some(Box::new(Layered { engine, carried, bytes }))
             });
             maker

@@ -2,40 +2,21 @@
 
 use std::fmt::Write as _;
 
-use galpix_core::budget::Component;
-use galpix_core::frame::Settings;
-use galpix_core::record::Record;
+use galpix_core::record::{Component, Record};
+use galpix_core::{Layout, Settings};
 
 use super::Build;
 
-/// Layout, profile and settings of a plan.
+/// Profile and settings of a plan.
 pub fn text(source: &str, build: &Build, record: &Record, settings: Settings) -> String {
     let name = type_name(source);
-    let lanes = build.lanes;
-    let mut kept = Vec::new();
-    if lanes.depth_bits > 0 {
-        kept.push(format!("depth_bits: {}", lanes.depth_bits));
-    }
-    for (lane, there) in [
-        ("velocity", lanes.velocity),
-        ("acceleration", lanes.acceleration),
-        ("depth_motion", lanes.depth_motion),
-        ("luminosity", lanes.luminosity),
-    ] {
-        if there {
-            kept.push(format!("{lane}: true"));
-        }
-    }
-    kept.push("..Lanes::NONE".to_owned());
-    let lanes = if kept.len() == 1 { "Lanes::NONE".to_owned() } else { format!("Lanes {{ {} }}", kept.join(", ")) };
     let mut text = format!(
         "/// {} bits in {} words a galpixel.\n\
          pub enum {name} {{}}\n\
-         impl Layout for {name} {{\n    type Colour = Rgb888;\n    const LANES: Lanes = {lanes};\n}}\n\
-         pub struct {name}Budget;\n\
-         impl Profile for {name}Budget {{\n    const BITS: Bits = Bits {{\n",
+         impl Profile for {name} {{\n    const LAYOUT: Layout = {};\n    const BITS: Bits = Bits {{\n",
         record.bits(),
-        record.words()
+        record.words(),
+        layout_text(build.layout)
     );
     for (axis, component) in [("x", build.bits.x), ("y", build.bits.y), ("z", build.bits.z)] {
         let Component { position_frac, velocity_int, velocity_frac, acceleration_int, acceleration_frac } = component;
@@ -45,21 +26,35 @@ pub fn text(source: &str, build: &Build, record: &Record, settings: Settings) ->
              {velocity_frac}, acceleration_int: {acceleration_int}, acceleration_frac: {acceleration_frac} }},"
         );
     }
+    let Settings { rounding, fill_mode, edge_threshold, reach } = settings;
     let _ = write!(
         text,
         "        depth_int: {}, luminosity_int: {}, luminosity_frac: {},\n    }};\n}}\n\
-         pub const SETTINGS: Settings = Settings {{\n    rounding: Rounding::{:?}, rung: Rung::{:?}, edge_threshold: {}, reach: {},\n    \
-         ..Settings::for_depth({})\n}};\n",
-        build.bits.depth_int,
-        build.bits.luminosity_int,
-        build.bits.luminosity_frac,
-        settings.rounding,
-        settings.rung,
-        settings.edge_threshold,
-        settings.reach,
-        record.depth().bits
+         pub const SETTINGS: Settings = Settings {{\n    rounding: Rounding::{rounding:?}, fill_mode: \
+         FillMode::{fill_mode:?}, edge_threshold: {edge_threshold}, reach: {reach},\n}};\n",
+        build.bits.depth_int, build.bits.luminosity_int, build.bits.luminosity_frac,
     );
     text
+}
+
+/// A layout of RGB888 by what it has beyond [`Layout::STILL`].
+fn layout_text(layout: Layout) -> String {
+    let Layout { colour: _, depth_bits, velocity, acceleration, depth_motion, luminosity, tag_bits: _ } = layout;
+    let mut kept = String::new();
+    if depth_bits > 0 {
+        kept += &format!("depth_bits: {depth_bits}, ");
+    }
+    for (field, there) in [
+        ("velocity", velocity),
+        ("acceleration", acceleration),
+        ("depth_motion", depth_motion),
+        ("luminosity", luminosity),
+    ] {
+        if there {
+            kept += &format!("{field}: true, ");
+        }
+    }
+    if kept.is_empty() { "Layout::STILL".to_owned() } else { format!("Layout {{ {kept}..Layout::STILL }}") }
 }
 
 /// The source's name as that of a type.

@@ -1,13 +1,11 @@
 //! Depth and rung, decided by running the update: what is left out must not change the pictures.
 
-use galpix_core::budget::Component;
-use galpix_core::fill::Rung;
-use galpix_core::layout::Lanes;
-use galpix_core::record::Record;
+use galpix_core::record::Component;
+use galpix_core::{FillMode, Layout, Record};
 
 use super::extremes::Extremes;
 use super::measured::{Ran, Subject};
-use super::{Build, COLOUR_BITS, PlanError};
+use super::{Build, PlanError};
 
 /// The share of all pixels of all frames that may differ before a lane is kept.
 const TOLERATED: f64 = 1e-3;
@@ -22,9 +20,9 @@ pub fn settle(
     build: &mut Build,
     reasons: &mut Vec<String>,
 ) -> Result<(), PlanError> {
-    if !build.lanes.velocity {
-        build.lanes = Lanes { depth_bits: 0, depth_motion: false, ..build.lanes };
-        build.rung = Rung::None;
+    if !build.layout.velocity {
+        build.layout = Layout { depth_bits: 0, depth_motion: false, ..build.layout };
+        build.fill_mode = FillMode::None;
         reasons.push("depth is left out: nothing moves, so nothing collides and nothing is uncovered".to_owned());
         reasons.push("no rung is needed: there are no holes".to_owned());
         return Ok(());
@@ -43,7 +41,7 @@ fn depth_motion(
     reasons: &mut Vec<String>,
 ) -> Result<(), PlanError> {
     // Without motion the z-buffer has no fraction: the same width is then worth more range bits.
-    let without = Build { lanes: Lanes { depth_motion: false, ..build.lanes }, ..*build };
+    let without = Build { layout: Layout { depth_motion: false, ..build.layout }, ..*build };
     let differs = if extremes.depth_change == 0.0 { 0.0 } else { subject.run(&without)?.differs(whole) };
     if differs <= TOLERATED {
         *build = without;
@@ -61,16 +59,16 @@ fn depth_bits(
     reasons: &mut Vec<String>,
 ) -> Result<(), PlanError> {
     for bits in DEPTHS {
-        if build.lanes.depth_motion && bits == 0 {
+        if build.layout.depth_motion && bits == 0 {
             continue;
         }
-        let mut fewer = Build { lanes: Lanes { depth_bits: bits, ..build.lanes }, ..*build };
-        if build.lanes.depth_motion {
+        let mut fewer = Build { layout: Layout { depth_bits: bits, ..build.layout }, ..*build };
+        if build.layout.depth_motion {
             // The range has at most as many bins as the z-buffer has steps.
             fewer.bits.depth_int = fewer.bits.depth_int.min(bits);
             fewer.bits.z = Component { position_frac: 0, ..fewer.bits.z };
         }
-        if Record::plan(fewer.bits, fewer.lanes, COLOUR_BITS).is_err() {
+        if Record::plan(fewer.bits, fewer.layout).is_err() {
             continue;
         }
         let differs = subject.run(&fewer)?.differs(whole);
@@ -89,19 +87,19 @@ fn depth_bits(
 
 fn rung(subject: &Subject<'_>, build: &mut Build, whole: &Ran, reasons: &mut Vec<String>) -> Result<(), PlanError> {
     if whole.holes == 0 {
-        build.rung = Rung::None;
+        build.fill_mode = FillMode::None;
         reasons.push("no rung is needed: there are no holes".to_owned());
         return Ok(());
     }
     if whole.unobscured == 0 {
-        build.rung = Rung::Bullet;
+        build.fill_mode = FillMode::Bullet;
         reasons.push("the rung bullet does: every hole lies inside a surface".to_owned());
         return Ok(());
     }
     let mut shown = Vec::new();
-    for rung in [Rung::Hold, Rung::Debris, Rung::Bullet, Rung::Galdebris, Rung::Extend] {
-        let psnr_db = subject.run(&Build { rung, ..*build })?.psnr_db(subject);
-        shown.push((rung, psnr_db));
+    for fill_mode in [FillMode::Hold, FillMode::Debris, FillMode::Bullet, FillMode::Galdebris, FillMode::Extend] {
+        let psnr_db = subject.run(&Build { fill_mode, ..*build })?.psnr_db(subject);
+        shown.push((fill_mode, psnr_db));
     }
     let best = shown.iter().filter_map(|&(_, psnr_db)| psnr_db).reduce(f64::max);
     let Some(best) = best else {
@@ -110,9 +108,9 @@ fn rung(subject: &Subject<'_>, build: &mut Build, whole: &Ran, reasons: &mut Vec
     };
     // A tenth of a decibel is not seen.
     let cheapest = shown.iter().find(|(_, psnr_db)| psnr_db.is_some_and(|psnr_db| psnr_db >= best - 0.1));
-    if let Some(&(rung, Some(psnr_db))) = cheapest {
-        build.rung = rung;
-        reasons.push(format!("the rung {} does: {psnr_db:.2} dB of at most {best:.2} dB", rung.name()));
+    if let Some(&(fill_mode, Some(psnr_db))) = cheapest {
+        build.fill_mode = fill_mode;
+        reasons.push(format!("the rung {} does: {psnr_db:.2} dB of at most {best:.2} dB", fill_mode.name()));
     }
     Ok(())
 }

@@ -2,12 +2,10 @@
 
 use std::time::Duration;
 
-use galpix_core::frame::Settings;
-use galpix_core::layout::{Layout, Shaded};
-use galpix_core::record::Record;
+use galpix_core::{Dynamic, Format, Record, Settings};
 use serde::Serialize;
 
-use super::{Build, COLOUR_BITS, PlanError};
+use super::{Build, PlanError};
 use crate::engine::Engine;
 use crate::experiment::{self, Request, Source};
 use crate::metric;
@@ -51,16 +49,15 @@ pub struct Ran {
 }
 
 impl Subject<'_> {
-    /// The settings of a build.
-    pub fn settings(&self, build: &Build) -> Result<Settings, PlanError> {
-        let record = Record::plan(build.bits, build.lanes, COLOUR_BITS)?;
-        let request = Request { rounding: build.rounding, fill: build.rung.into(), ..*self.request };
-        Ok(experiment::settings(&record, self.update.depth_kind, &request))
+    /// The settings of a build with this stored form.
+    pub fn settings(&self, build: &Build, record: &Record) -> Settings {
+        let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..*self.request };
+        experiment::settings(record, self.update.depth_kind, &request)
     }
 
-    fn engine(&self, build: &Build) -> Result<Engine<Shaded>, PlanError> {
-        debug_assert!(Shaded::LANES.include(build.lanes));
-        Ok(Engine::with_lanes(build.bits, build.lanes, self.settings(build)?)?)
+    fn engine(&self, build: &Build) -> Result<Engine, PlanError> {
+        let format = Dynamic::new(build.bits, build.layout)?;
+        Ok(Engine::new(format, self.settings(build, format.record())))
     }
 
     /// Runs a build over all frames.

@@ -1,7 +1,7 @@
 //! Lanes and bits in the plane: what leaving a lane out costs at most, and the certificate of what is left.
 
-use galpix_core::budget::{Component, WIDEST_FIELD};
-use galpix_core::rounding::Rounding;
+use galpix_core::Rounding;
+use galpix_core::record::{Component, WIDEST_FIELD};
 use serde::Serialize;
 
 use super::extremes::{Extremes, Reach};

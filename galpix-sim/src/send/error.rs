@@ -1,6 +1,6 @@
 //! Why an update did not get to the device, each in one sentence with its remedy.
 
-use galpix_core::error::SetupError;
+use galpix_core::SetupError;
 
 /// Why an update did not get to the device.
 #[derive(Debug, thiserror::Error)]

@@ -1,9 +1,6 @@
 //! Galpixels as a panel's maps store them.
 
-use galpix_core::error::SetupError;
-use galpix_core::galpixel::{Galpixel, Static};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
+use galpix_core::{Galpixel, Galpixmap, Grid, Margin, SetupError, Static};
 use galpix_link::panel::{Description, Lcd, Oled, Panel};
 
 /// A whole map of stored galpixels, row by row; all words of a galpixel follow each other, each with its lowest byte
@@ -36,10 +33,10 @@ pub fn pack(panel: &Description, galpixels: &[Galpixel]) -> Result<Packed, Setup
 
 fn pack_as<P: Panel>(galpixels: &[Galpixel]) -> Result<Packed, SetupError> {
     let height = u32::from(P::HEIGHT);
-    let mut starts = vec![0; Grid::rows(height, Wings::NONE)];
-    let grid = Grid::new(u32::from(P::WIDTH), height, Wings::NONE, &mut starts)?;
+    let mut starts = vec![0; Grid::rows(height, Margin::NONE)];
+    let grid = Grid::new(u32::from(P::WIDTH), height, Margin::NONE, &mut starts)?;
     let mut memory = vec![0; P::MAP_WORDS];
-    let mut map = Galpixmap::<P::Layout, _>::new(grid, Static::<P>::new(), &mut memory)?;
+    let mut map = Galpixmap::new(grid, Static::<P>::new(), &mut memory)?;
     let cells = (0..i32::from(P::HEIGHT)).flat_map(|y| (0..i32::from(P::WIDTH)).map(move |x| (x, y)));
     let saturated = cells.zip(galpixels).map(|((x, y), galpixel)| map.store(x, y, galpixel).unwrap_or(0)).sum();
     // Planes of words become words of galpixels.

@@ -8,8 +8,8 @@
 //!     ─ saturation ─ that of the stored r, v, a, clamped where a field ends ─ drift ─ engine ─ snapping ─ cell
 //! ```
 
-use galpix_core::propagate::step_position;
-use galpix_core::rounding::Rounding;
+use galpix_core::Rounding;
+use galpix_core::stages::step_position;
 
 use super::exact::Px;
 use super::floats::Float;

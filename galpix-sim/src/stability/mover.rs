@@ -1,13 +1,8 @@
 //! What moves a galpixel: the engine itself, on a strip of cells that is just long enough for one step.
 
-use galpix_core::error::BudgetError;
-use galpix_core::fill::Rung;
-use galpix_core::frame::{self, Scratch, Settings};
-use galpix_core::galpixel::{Chosen, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
-use galpix_core::layout::Full;
-use galpix_core::rounding::Rounding;
+use galpix_core::{
+    BudgetError, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings,
+};
 
 use super::path::Given;
 use super::setting::Setting;
@@ -48,7 +43,7 @@ pub trait Mover {
 /// does not know its cell.
 pub struct Strip {
     setting: Setting,
-    budget: Chosen<Full>,
+    format: Dynamic,
     component: usize,
     settings: Settings,
     galpixel: Galpixel,
@@ -63,11 +58,11 @@ impl Strip {
     pub fn new(setting: &Setting, component: usize, rounding: Rounding) -> Result<Self, BudgetError> {
         Ok(Self {
             setting: *setting,
-            budget: Chosen::new(setting.bits)?,
+            format: Dynamic::new(setting.bits, Layout::FULL)?,
             component,
             settings: Settings {
                 rounding,
-                rung: Rung::None,
+                fill_mode: FillMode::None,
                 ..Settings::for_depth(setting.record.depth().bits.into())
             },
             galpixel: Galpixel::default(),
@@ -112,23 +107,24 @@ impl Strip {
         let at = |cell: i32| if self.component == 1 { (0, cell) } else { (cell, 0) };
         let [starts, front, back, winners] = &mut self.memory;
         starts.resize(cells as usize, 0);
-        let grid = Grid::new(width, height, Wings::NONE, starts).ok()?;
-        let words = Galpixmap::<Full, _>::words(&grid, self.budget);
+        let grid = Grid::new(width, height, Margin::NONE, starts).ok()?;
+        let words = Galpixmap::words(&grid, self.format);
         front.resize(words, 0);
         back.resize(words, 0);
         winners.resize(cells as usize, 0);
-        let mut front = Galpixmap::<Full, _>::new(grid, self.budget, front).ok()?;
+        let mut front = Galpixmap::new(grid, self.format, front).ok()?;
         let mut clamped = front.store(at(from).0, at(from).1, &self.galpixel)?;
         let mut to = from;
         match counter {
             None => self.galpixel = front.load(at(from).0, at(from).1)?,
             Some(counter) => {
-                let mut back = Galpixmap::over(grid, self.budget, back).ok()?;
+                let back = Galpixmap::over(grid, self.format, back).ok()?;
                 let winners = winners.get_mut(..cells as usize)?;
-                let mut scratch = Scratch { winners, edges: &mut [] };
-                clamped += frame::step(&front, &mut back, &mut scratch, &self.settings, counter).saturated;
-                to = winners.iter().position(|&source| source == from as u32)? as i32;
-                self.galpixel = back.load(at(to).0, at(to).1)?;
+                let mut controller = Controller::new(front, back, Scratch { winners, edges: &mut [] }).ok()?;
+                controller.set_frame(counter);
+                clamped += controller.step(&self.settings).saturated;
+                to = controller.winners().iter().position(|&source| source == from as u32)? as i32;
+                self.galpixel = controller.front().load(at(to).0, at(to).1)?;
             }
         }
         self.cell += i64::from(to - from);

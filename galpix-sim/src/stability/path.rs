@@ -1,7 +1,7 @@
 //! A path: one component of one galpixel, its true motion, and when updates come.
 
 use fixed::types::I32F32;
-use galpix_core::galpixel::Galpixel;
+use galpix_core::Galpixel;
 
 use super::exact::Px;
 use super::setting::Setting;

@@ -2,16 +2,10 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use galpix_core::edge;
-use galpix_core::fill::{FILLED, Rung};
-use galpix_core::frame::{Controller, Scratch, Settings};
-use galpix_core::galpixel::{Chosen, Class, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
-use galpix_core::layout::{Full, Layout, Shaded};
-use galpix_core::resolve::NOBODY;
-use galpix_core::rounding::Rounding;
-use galpix_core::tally::Tally;
+use galpix_core::stages::{self, FILLED, NO_WINNER};
+use galpix_core::{
+    Class, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings, Tally,
+};
 use serde::Serialize;
 
 use super::exact::Px;
@@ -28,11 +22,11 @@ pub struct Picture {
     /// Columns and rows of the display.
     pub size: [u32; 2],
     /// What the map has beyond it.
-    pub wings: Wings,
+    pub margin: Margin,
     /// What cell (x, y) of the map holds; wings included.
     pub galpixel: Box<dyn Fn(u32, u32) -> Galpixel + Send + Sync>,
-    /// Whether the layout is `Shaded`, which has every lane; else it is `Full`.
-    pub shaded: bool,
+    /// What a galpixel carries.
+    pub layout: Layout,
     /// Frames.
     pub frames: u32,
     /// The frame counter at the start.
@@ -130,39 +124,25 @@ pub fn run(
     setting: &Setting,
     laws: [&Law; 2],
     rounding: Rounding,
-    rung: Rung,
+    fill_mode: FillMode,
 ) -> Result<Outcome, EngineError> {
-    if picture.shaded {
-        run_as::<Shaded>(picture, setting, laws, rounding, rung)
-    } else {
-        run_as::<Full>(picture, setting, laws, rounding, rung)
-    }
-}
-
-fn run_as<L: Layout>(
-    picture: &Picture,
-    setting: &Setting,
-    laws: [&Law; 2],
-    rounding: Rounding,
-    rung: Rung,
-) -> Result<Outcome, EngineError> {
-    let budget = Chosen::<L>::new(setting.bits)?;
+    let format = Dynamic::new(setting.bits, picture.layout)?;
     let [width, height] = picture.size;
-    let mut starts = vec![0; Grid::rows(height, picture.wings)];
-    let grid = Grid::new(width, height, picture.wings, &mut starts)?;
-    let words = Galpixmap::<L, _>::words(&grid, budget);
+    let mut starts = vec![0; Grid::rows(height, picture.margin)];
+    let grid = Grid::new(width, height, picture.margin, &mut starts)?;
+    let words = Galpixmap::words(&grid, format);
     let (mut front, mut back) = (vec![0; words], vec![0; words]);
-    let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; edge::words(&grid)]);
+    let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; stages::words(&grid)]);
     let mut controller = Controller::new(
-        Galpixmap::<L, _>::new(grid, budget, &mut front)?,
-        Galpixmap::new(grid, budget, &mut back)?,
+        Galpixmap::new(grid, format, &mut front)?,
+        Galpixmap::new(grid, format, &mut back)?,
         Scratch { winners: &mut winners, edges: &mut edges },
     )?;
     controller.set_frame(picture.counter);
-    let settings = Settings { rounding, rung, ..Settings::for_depth(setting.record.depth().bits.into()) };
+    let settings = Settings { rounding, fill_mode, ..Settings::for_depth(setting.record.depth().bits.into()) };
     let mut outcome = Outcome {
         picture: picture.name.clone(),
-        rung: rung.name(),
+        rung: fill_mode.name(),
         cells: grid.cells(),
         frames: picture.frames,
         bound_px: laws[0].bound_px(picture.frames, picture.counter == 0),
@@ -188,7 +168,7 @@ fn run_as<L: Layout>(
         origins = controller
             .winners()
             .iter()
-            .map(|&winner| origins.get(winner as usize).copied().unwrap_or(NOBODY))
+            .map(|&winner| origins.get(winner as usize).copied().unwrap_or(NO_WINNER))
             .collect();
         (0..).map_while(|plane| controller.front().plane(plane)).for_each(|plane| plane.hash(&mut bits));
         for (cell, &origin) in (0u32..).zip(&origins) {
@@ -234,7 +214,7 @@ impl Track {
     }
 }
 
-fn census<L: Layout>(controller: &Controller<'_, L, Chosen<L>>, held: &[bool], tally: Tally) -> Census {
+fn census(controller: &Controller<'_, Dynamic>, held: &[bool], tally: Tally) -> Census {
     let mut taken = vec![false; held.len()];
     let mut census = Census { cells: held.len() as u32, tally, ..Census::default() };
     census.held = held.iter().filter(|&&held| held).count() as u32;

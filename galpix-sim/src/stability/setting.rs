@@ -1,11 +1,7 @@
 //! The budget that the suite runs under: what its fields hold, and what its certificate says frame by frame.
 
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::error::BudgetError;
-use galpix_core::galpixel::{Budget, Chosen};
-use galpix_core::layout::Full;
-use galpix_core::record::{Record, Scale};
-use galpix_core::rounding::Rounding;
+use galpix_core::record::{Component, Record, Scale};
+use galpix_core::{Bits, BudgetError, Demand, Layout, Rounding};
 
 use crate::certificate::{Certificate, FrameBound};
 
@@ -33,7 +29,7 @@ pub struct Setting {
     pub demand: Demand,
     /// The widths.
     pub bits: Bits,
-    /// The stored form of the layout `Full`.
+    /// The stored form of the layout [`Layout::FULL`].
     pub record: Record,
 }
 
@@ -56,7 +52,7 @@ impl Setting {
     /// *Errors:* a budget that cannot exist, or whose steps no map can hold.
     pub fn new(demand: Demand) -> Result<Self, SettingError> {
         let bits = Bits::derive(demand)?;
-        let record = *Chosen::<Full>::new(bits)?.record();
+        let record = Record::plan(bits, Layout::FULL)?;
         let fastest = (1u64 << (bits.x.velocity_int - 1)) + (1u64 << (bits.x.acceleration_int - 1)) / 2 + 4;
         if fastest > MOST_COLUMNS {
             return Err(SettingError::TooFast(fastest));

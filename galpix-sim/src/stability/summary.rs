@@ -2,7 +2,7 @@
 
 mod shares;
 
-use galpix_core::rounding::Rounding;
+use galpix_core::Rounding;
 use serde::Serialize;
 
 use super::cases::Case;

@@ -1,5 +1,5 @@
-use galpix_core::propagate::{clamp_velocity, snap, step_position, step_velocity};
-use galpix_core::tally::Tally;
+use galpix_core::Tally;
+use galpix_core::stages::{clamp_velocity, snap, step_position, step_velocity};
 
 use super::causes::{Followed, follow};
 use super::mover::{Moved, State};

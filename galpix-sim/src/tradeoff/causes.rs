@@ -6,9 +6,7 @@
 //! the mean over the galpixels is told, of each galpixel the worse of x and y; since steps may cancel, they add up to at least
 //! the error as a whole. What nothing reached is no place but a hole: holes are told in the squared error of the picture.
 
-use galpix_core::budget::Bits;
-use galpix_core::frame::Settings;
-use galpix_core::layout::{Lanes, Shaded};
+use galpix_core::{Bits, Dynamic, Layout, Settings};
 use serde::Serialize;
 
 use super::design::Configuration;
@@ -61,15 +59,15 @@ pub fn causes(
     bits: Bits,
     settings: Settings,
 ) -> Result<(Vec<FrameCauses>, Vec<Pair>), EngineError> {
-    let lanes = configuration.kept.lanes();
+    let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.frames as usize);
     let mut pairs = Vec::new();
-    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?.inpainting(configuration.rung.inpaint());
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.rung.inpaint());
     engine.run(&reference.update, reference.frames, |frame| {
         if frame.number == 0 {
             return;
         }
-        let mut causes = places(reference, frame.number, lanes, bits, frame.places());
+        let mut causes = places(reference, frame.number, layout, bits, frame.places());
         let reached = frame.reached();
         let missing = reached.iter().filter(|&&reached| !reached).count();
         causes.missing_percent = 100.0 * missing as f64 / reached.len().max(1) as f64;
@@ -92,7 +90,7 @@ pub fn causes(
 fn places(
     reference: &Reference<'_>,
     frame: u32,
-    lanes: Lanes,
+    layout: Layout,
     bits: Bits,
     places: impl Iterator<Item = (u32, [f64; 2])>,
 ) -> FrameCauses {
@@ -102,9 +100,9 @@ fn places(
         let Some(sample) = reference.update.samples.get(origin as usize) else { continue };
         let from = reference.from(origin);
         let after = |way: [f64; 2]| [from[0] + way[0], from[1] + way[1]];
-        let second_order = after(way(sample, Lanes::FULL, frame));
-        let kept = after(way(sample, lanes, frame));
-        let stored = [0, 1].map(|axis| Stored::of(sample, axis, bits, lanes, frame));
+        let second_order = after(way(sample, Layout::FULL, frame));
+        let kept = after(way(sample, layout, frame));
+        let stored = [0, 1].map(|axis| Stored::of(sample, axis, bits, layout, frame));
         let path = after(stored.map(|stored| stored.way(frame)));
         // The best-fitting cell: halves towards +infinity.
         let cell = place.map(|coordinate| (coordinate + 0.5).floor());

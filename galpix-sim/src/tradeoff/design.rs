@@ -1,10 +1,7 @@
 //! Which configurations are measured: one axis at a time around the default, and the combinations that may lie on a front.
 
-use galpix_core::budget::{Bits, Component, Demand};
-use galpix_core::error::BudgetError;
-use galpix_core::fill::Rung;
-use galpix_core::layout::Lanes;
-use galpix_core::rounding::Rounding;
+use galpix_core::record::Component;
+use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding};
 
 use super::ranges::Ranges;
 use crate::fill::Fill;
@@ -44,16 +41,16 @@ impl Kept {
         }
     }
 
-    /// The lanes.
+    /// The layout.
     #[must_use]
-    pub const fn lanes(self) -> Lanes {
+    pub const fn layout(self) -> Layout {
         match self {
-            Self::Still => Lanes::NONE,
-            Self::Velocity => Lanes::VELOCITY_XY,
-            Self::VelocityDepth => Lanes { acceleration: false, ..Lanes::FULL },
-            Self::Acceleration => Lanes { depth_motion: false, ..Lanes::FULL },
-            Self::Full => Lanes::FULL,
-            Self::Luminosity => Lanes { luminosity: true, ..Lanes::FULL },
+            Self::Still => Layout::STILL,
+            Self::Velocity => Layout { colour: Colour::RGB888, ..Layout::VELOCITY565 },
+            Self::VelocityDepth => Layout { acceleration: false, ..Layout::FULL },
+            Self::Acceleration => Layout { depth_motion: false, ..Layout::FULL },
+            Self::Full => Layout::FULL,
+            Self::Luminosity => Layout { luminosity: true, ..Layout::FULL },
         }
     }
 }
@@ -91,15 +88,15 @@ impl Step {
         }
     }
 
-    /// The widths for some lanes. Without acceleration these depart from [`Bits::derive_without_acceleration`].
+    /// The widths for a layout. Without acceleration these depart from [`Bits::derive_without_acceleration`].
     ///
     /// *Errors:* a demand that gives no budget, a step that leaves none.
-    pub fn bits(self, demand: Demand, lanes: Lanes, ranges: &Ranges) -> Result<Bits, BudgetError> {
+    pub fn bits(self, demand: Demand, layout: Layout, ranges: &Ranges) -> Result<Bits, BudgetError> {
         let derived =
-            if lanes.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
+            if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
         let [x, y, z] = [(0, derived.x), (1, derived.y), (2, derived.z)].map(|(axis, component)| {
             let bins = if axis == 2 { derived.depth_int } else { 0 };
-            let component = if self.fitted { ranges.fit(component, axis, bins, lanes) } else { component };
+            let component = if self.fitted { ranges.fit(component, axis, bins, layout) } else { component };
             self.stepped(component)
         });
         let (x, y, z) = (x?, y?, z?);
@@ -198,10 +195,10 @@ impl Axes {
                 chosen.push(Configuration { kept, step: fitted, ..middle });
             }
             for &rung in &self.rungs {
-                let telling = matches!(rung, Fill::Rung(Rung::Hold | Rung::Bullet)) || rung == middle.rung;
+                let telling = matches!(rung, Fill::Rung(FillMode::Hold | FillMode::Bullet)) || rung == middle.rung;
                 match extent {
-                    Extent::Quick if !telling || rung == Fill::Rung(Rung::Bullet) => continue,
-                    Extent::Sparing if kept != middle.kept && (!telling || rung == Fill::Rung(Rung::Bullet)) => {
+                    Extent::Quick if !telling || rung == Fill::Rung(FillMode::Bullet) => continue,
+                    Extent::Sparing if kept != middle.kept && (!telling || rung == Fill::Rung(FillMode::Bullet)) => {
                         continue;
                     }
                     Extent::Sensible if !telling && kept != middle.kept => continue,
@@ -243,7 +240,7 @@ mod tests {
         Axes {
             kept: Kept::ALL[..5].to_vec(),
             roundings: Rounding::ALL.to_vec(),
-            rungs: Rung::ALL.map(Fill::from).to_vec(),
+            rungs: FillMode::ALL.map(Fill::from).to_vec(),
         }
     }
 
@@ -265,11 +262,11 @@ mod tests {
     #[test]
     fn a_list_of_one_is_all_that_is_run() {
         let one =
-            Axes { kept: vec![Kept::Velocity], roundings: vec![Rounding::Truncate], rungs: vec![Rung::Hold.into()] };
+            Axes { kept: vec![Kept::Velocity], roundings: vec![Rounding::Truncate], rungs: vec![FillMode::Hold.into()] };
         for configuration in one.design(Extent::Full) {
             assert_eq!(
                 (configuration.kept, configuration.rounding, configuration.rung),
-                (Kept::Velocity, Rounding::Truncate, Rung::Hold.into())
+                (Kept::Velocity, Rounding::Truncate, FillMode::Hold.into())
             );
         }
     }
@@ -277,7 +274,7 @@ mod tests {
     #[test]
     fn steps_depart_from_the_derived_widths() {
         let demand = Demand { extent: 256, recog: 8, prop: 16 };
-        let bits = |step: Step| step.bits(demand, Lanes::FULL, &Ranges::default());
+        let bits = |step: Step| step.bits(demand, Layout::FULL, &Ranges::default());
         let derived = bits(Step::DERIVED).unwrap();
         assert_eq!(derived, Bits::derive(demand).unwrap());
         let step = bits(Step { position: -3, motion: 2, fitted: false }).unwrap();

@@ -6,7 +6,7 @@
 
 use std::mem::size_of;
 
-use galpix_core::fill::Rung;
+use galpix_core::FillMode;
 
 use super::design::Kept;
 use crate::picture::Picture;
@@ -39,7 +39,7 @@ pub trait Floats {
     /// Writes an update into the map that is shown.
     fn load(&mut self, update: &Update);
     /// Makes the next frame and shows it; `winners`, if not empty, gets the source of each cell.
-    fn step(&mut self, rung: Rung, winners: &mut [u32]);
+    fn step(&mut self, rung: FillMode, winners: &mut [u32]);
     /// Every cell of the map.
     fn cells(&self) -> Vec<Cell>;
 }
@@ -147,10 +147,10 @@ impl<const V: usize, const A: usize, const L: usize> Floats for Maps<V, A, L> {
         }
     }
 
-    fn step(&mut self, rung: Rung, winners: &mut [u32]) {
+    fn step(&mut self, rung: FillMode, winners: &mut [u32]) {
         let (width, height) = (self.width, self.front.len() / self.width.max(1));
         // A hole shows black, or goes on showing what was shown there.
-        if rung == Rung::None {
+        if rung == FillMode::None {
             self.back.fill(Pixel::shown(0));
         } else {
             for (to, from) in self.back.iter_mut().zip(&self.front) {
@@ -204,7 +204,7 @@ pub struct FloatFrame {
 }
 
 /// Extrapolates an update in floats; `visit` sees the frames that `wanted` names.
-pub fn run(update: &Update, kept: Kept, rung: Rung, frames: u32, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
+pub fn run(update: &Update, kept: Kept, rung: FillMode, frames: u32, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
     let Some(mut maps) = maps(kept, update.width, update.height) else { return };
     maps.load(update);
     let known = |(cell, sample): (u32, &Sample)| if sample.known == Known::Motion { cell } else { NOBODY };

@@ -1,7 +1,6 @@
 //! The legends of the plots: rungs by colour, roundings by shape, bytes by size.
 
-use galpix_core::fill::Rung;
-use galpix_core::rounding::Rounding;
+use galpix_core::{FillMode, Rounding};
 
 use super::report::{Point, Scheme, SourceReport};
 use crate::fill::{Fill, Inpaint, Kind};
@@ -25,12 +24,12 @@ pub(crate) const fn fill_ink(fill: Fill) -> Ink {
         Fill::Rung(rung) => rung,
     };
     match rung {
-        Rung::None => Ink::Collided,
-        Rung::Hold => Ink::Hold,
-        Rung::Debris => Ink::Holes,
-        Rung::Bullet => Ink::Known,
-        Rung::Galdebris => Ink::Filled,
-        Rung::Extend => Ink::Galpix,
+        FillMode::None => Ink::Collided,
+        FillMode::Hold => Ink::Hold,
+        FillMode::Debris => Ink::Holes,
+        FillMode::Bullet => Ink::Known,
+        FillMode::Galdebris => Ink::Filled,
+        FillMode::Extend => Ink::Galpix,
     }
 }
 

@@ -1,7 +1,6 @@
 //! The error of one configuration: galpixel by galpixel, and as pictures.
 
-use galpix_core::budget::Bits;
-use galpix_core::layout::{Lanes, Shaded};
+use galpix_core::{Bits, Dynamic, Layout, Settings};
 
 use super::design::Configuration;
 use super::float;
@@ -11,7 +10,6 @@ use super::report::{FrameError, PictureError};
 use crate::engine::{Engine, EngineError, LoadTally};
 use crate::metric;
 use crate::picture::Picture;
-use galpix_core::frame::Settings;
 
 /// What a configuration gave.
 pub struct Measured {
@@ -32,15 +30,14 @@ pub fn engine(
     bits: Bits,
     settings: Settings,
 ) -> Result<Measured, EngineError> {
-    let lanes = configuration.kept.lanes();
-    let engine = Engine::<Shaded>::with_lanes(bits, lanes, settings)?.inpainting(configuration.rung.inpaint());
+    let layout = configuration.kept.layout();
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.rung.inpaint());
     let mut frames = Vec::with_capacity(reference.looked.len());
     let mut saturated = 0;
     let loaded = engine.run(&reference.update, reference.frames, |frame| {
         saturated += u64::from(frame.tally.saturated);
         if reference.looked.contains(&frame.number) {
-            let budget = Some((bits, lanes));
-            let mut error = positions(reference, frame.number, lanes, budget, frame.places());
+            let mut error = positions(reference, frame.number, layout, Some(bits), frame.places());
             error.picture = picture(reference, frame.number, || (frame.picture(), frame.reached()));
             frames.push(error);
         }
@@ -51,11 +48,11 @@ pub fn engine(
 /// Runs the floats with the lanes and the rung of a configuration and looks at them.
 #[must_use]
 pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measured {
-    let lanes = configuration.kept.lanes();
+    let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.looked.len());
     let Reference { update, looked, .. } = reference;
     float::run(update, configuration.kept, configuration.rung.rung(), reference.frames, looked, |frame| {
-        let mut error = positions(reference, frame.number, lanes, None, frame.places.iter().copied());
+        let mut error = positions(reference, frame.number, layout, None, frame.places.iter().copied());
         error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
         frames.push(error);
     });
@@ -85,8 +82,8 @@ pub fn apart(place: [f64; 2], should: [f64; 2]) -> f64 {
 fn positions(
     reference: &Reference<'_>,
     frame: u32,
-    lanes: Lanes,
-    budget: Option<(Bits, Lanes)>,
+    layout: Layout,
+    bits: Option<Bits>,
     places: impl Iterator<Item = (u32, [f64; 2])>,
 ) -> FrameError {
     let mut error = FrameError::at(frame);
@@ -96,15 +93,14 @@ fn positions(
         let Some(sample) = reference.update.samples.get(origin as usize) else { continue };
         let from = reference.from(origin);
         let after = |way: [f64; 2]| [from[0] + way[0], from[1] + way[1]];
-        let second_order = apart(place, after(way(sample, Lanes::FULL, frame)));
+        let second_order = apart(place, after(way(sample, Layout::FULL, frame)));
         worst = worst.max(second_order);
         sum += second_order;
         count += 1;
         // What saturated is outside of the certificate.
-        let fits = budget
-            .is_none_or(|(bits, lanes)| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, lanes, frame).fits));
+        let fits = bits.is_none_or(|bits| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, layout, frame).fits));
         if fits {
-            kept_worst = kept_worst.max(apart(place, after(way(sample, lanes, frame))));
+            kept_worst = kept_worst.max(apart(place, after(way(sample, layout, frame))));
         } else {
             error.saturated_galpixels += 1;
         }

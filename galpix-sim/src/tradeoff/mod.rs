@@ -30,9 +30,9 @@ mod points;
 
 pub(crate) use legend::fill_ink;
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::layout::Lanes;
+use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Rounding};
 
+use crate::engine::Engine;
 use crate::experiment::{ExperimentError, Request, Source, demand};
 use crate::update::Known;
 use design::{Axes, Configuration, Extent, Kept, Step};
@@ -49,7 +49,7 @@ pub struct Plan {
     /// Lanes to choose from; those that the source has no use for are dropped unless nothing else is left.
     pub kept: Vec<Kept>,
     /// Roundings to choose from.
-    pub roundings: Vec<galpix_core::rounding::Rounding>,
+    pub roundings: Vec<Rounding>,
     /// Rungs to choose from.
     pub rungs: Vec<crate::fill::Fill>,
     /// How many configurations.
@@ -80,8 +80,8 @@ pub(crate) struct Study<'s> {
 }
 
 impl Study<'_> {
-    fn bits(&self, kept: Kept, step: Step) -> Result<Bits, galpix_core::error::BudgetError> {
-        step.bits(self.demand, kept.lanes(), &self.ranges)
+    fn bits(&self, kept: Kept, step: Step) -> Result<Bits, BudgetError> {
+        step.bits(self.demand, kept.layout(), &self.ranges)
     }
 }
 
@@ -99,8 +99,8 @@ pub fn check(source: &Source, plan: &Plan) -> Result<(), ExperimentError> {
     let update = source.update();
     let demand = demand(&update, plan.request.frames.unwrap_or(source.frames()), &plan.request);
     for kept in useful(&update, &plan.kept) {
-        let bits = Step::DERIVED.bits(demand, kept.lanes(), &Ranges::default())?;
-        galpix_core::galpixel::Chosen::<galpix_core::layout::Shaded>::with_lanes(bits, kept.lanes())?;
+        let bits = Step::DERIVED.bits(demand, kept.layout(), &Ranges::default())?;
+        Dynamic::new(bits, kept.layout())?;
     }
     Ok(())
 }
@@ -134,11 +134,15 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
 
     let middle = axes.middle();
     let bits = study.bits(middle.kept, middle.step)?;
-    let settings = study.settings(&middle, bits)?;
+    let format = Dynamic::new(bits, middle.kept.layout())?;
+    let settings = study.settings(&middle, format.record());
     tell(Work::Ahead(1));
     let (causes, shown) = causes::causes(&study.reference, &middle, bits, settings)?;
     let rates = match source {
-        Source::Scene(scene) => rates::rates(*scene, frames, bits, &middle, settings)?,
+        Source::Scene(scene) => {
+            let engine = Engine::new(format, settings).inpainting(middle.rung.inpaint());
+            rates::rates(*scene, frames, &engine)?
+        }
         Source::Capture(_) => Vec::new(),
     };
     tell(Work::Done);
@@ -220,7 +224,7 @@ fn omissions(study: &Study<'_>, source: &Source, middle: Configuration) -> Vec<S
         }
     }
     left_out.push("Floats have the rungs hold and, with the richest lanes, none.".to_owned());
-    if middle.kept.lanes() != Lanes::FULL && middle.kept != Kept::Luminosity {
+    if middle.kept.layout() != Layout::FULL && middle.kept != Kept::Luminosity {
         left_out.push(format!("The causes and the rates are those of lanes {}.", middle.kept.name()));
     }
     left_out

@@ -2,18 +2,10 @@
 
 use std::collections::HashMap;
 
-use galpix_core::budget::Bits;
-use galpix_core::colour::Colour;
-use galpix_core::error::BudgetError;
-use galpix_core::fill::Rung;
-use galpix_core::frame::Settings;
-use galpix_core::galpixel::Chosen;
-use galpix_core::layout::{Layout, Shaded};
-use galpix_core::record::Record;
-use galpix_core::rounding::Rounding;
+use galpix_core::{Bits, BudgetError, Dynamic, FillMode, Format, Record, Rounding, Settings};
 use rayon::prelude::*;
 
-use super::design::{Configuration, Kept, Step};
+use super::design::{Configuration, Step};
 use super::report::{FrameError, Point, Scheme, Summary};
 use super::timing::{Engine, InFloats, Maker, Time, race};
 use super::{Study, Work, float, measure, stand_in};
@@ -25,7 +17,7 @@ use crate::fill::Fill;
 struct Candidate {
     configuration: Configuration,
     bits: Bits,
-    record: Record,
+    format: Dynamic,
     settings: Settings,
 }
 
@@ -38,26 +30,17 @@ impl Candidate {
 }
 
 impl Study<'_> {
-    /// The record of some lanes under a budget.
-    fn record(&self, kept: Kept, bits: Bits) -> Result<Record, BudgetError> {
-        Record::plan(bits, kept.lanes(), <Shaded as Layout>::Colour::BITS)
-    }
-
-    /// How the frames of a configuration are made.
-    pub(super) fn settings(&self, configuration: &Configuration, bits: Bits) -> Result<Settings, BudgetError> {
+    /// How the frames of a configuration are made in maps of a stored form.
+    pub(super) fn settings(&self, configuration: &Configuration, record: &Record) -> Settings {
         let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.request };
-        Ok(settings(&self.record(configuration.kept, bits)?, self.reference.update.depth_kind, &request))
+        settings(record, self.reference.update.depth_kind, &request)
     }
 
     fn candidate(&self, configuration: Configuration) -> Result<Candidate, BudgetError> {
         let bits = self.bits(configuration.kept, configuration.step)?;
-        Chosen::<Shaded>::with_lanes(bits, configuration.kept.lanes())?;
-        Ok(Candidate {
-            configuration,
-            bits,
-            record: self.record(configuration.kept, bits)?,
-            settings: self.settings(&configuration, bits)?,
-        })
+        let format = Dynamic::new(bits, configuration.kept.layout())?;
+        let settings = self.settings(&configuration, format.record());
+        Ok(Candidate { configuration, bits, format, settings })
     }
 
     /// Measures the configurations, and the floats beside them. What has no budget is left out, with a word on why.
@@ -104,11 +87,11 @@ impl Study<'_> {
     fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
         let mut floats: Vec<Configuration> = Vec::new();
         let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
-        let none = candidates.iter().any(|candidate| candidate.configuration.rung == Rung::None.into());
+        let none = candidates.iter().any(|candidate| candidate.configuration.rung == FillMode::None.into());
         for Candidate { configuration, .. } in candidates {
-            for rung in [Rung::None, Rung::Hold].map(Fill::from) {
+            for rung in [FillMode::None, FillMode::Hold].map(Fill::from) {
                 // Black holes are for study: the richest lanes show them.
-                let shown = rung == Rung::Hold.into() || none && configuration.kept == middle;
+                let shown = rung == FillMode::Hold.into() || none && configuration.kept == middle;
                 let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
                 if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
                     floats.push(float);
@@ -125,10 +108,9 @@ impl Study<'_> {
         kinds.sort_by_key(|kind| kind.0);
         kinds.dedup_by_key(|kind| kind.0);
         let certify = |&(kind, candidate): &(Arithmetic, &Candidate)| {
-            let lanes = candidate.configuration.kept.lanes();
-            let scale = &candidate.record.scales[0];
+            let record = candidate.format.record();
             let rounding = candidate.settings.rounding;
-            (kind, Certificate::of(scale, lanes.acceleration, rounding, self.demand.prop))
+            (kind, Certificate::of(&record.scales[0], record.layout().acceleration, rounding, self.demand.prop))
         };
         kinds.par_iter().map(certify).collect()
     }
@@ -138,15 +120,15 @@ impl Study<'_> {
         candidate: &Candidate,
         certificates: &HashMap<Arithmetic, Certificate>,
     ) -> Result<Point, ExperimentError> {
-        let Candidate { configuration, bits, record, settings } = candidate;
+        let Candidate { configuration, bits, format, settings } = candidate;
         let mut measured = measure::engine(&self.reference, configuration, *bits, *settings)?;
-        let lanes = configuration.kept.lanes();
+        let (record, layout) = (format.record(), configuration.kept.layout());
         let certificate = certificates.get(&Arithmetic::of(candidate));
         for frame in &mut measured.frames {
             // What has no velocity stays where it is, exactly.
             frame.certified_px =
-                if lanes.velocity { certificate.and_then(|bound| bound.after(frame.frame)) } else { Some(0.0) };
-            frame.left_out_px = self.reference.left_out_px(lanes, frame.frame);
+                if layout.velocity { certificate.and_then(|bound| bound.after(frame.frame)) } else { Some(0.0) };
+            frame.left_out_px = self.reference.left_out_px(layout, frame.frame);
         }
         let x = bits.x;
         Ok(Point {
@@ -156,7 +138,7 @@ impl Study<'_> {
             used_bits: record.bits(),
             saturated: u64::from(measured.loaded.saturated) + measured.saturated,
             budget: configuration.step.name(),
-            stand_in: stand_in::of(configuration.kept, record.words()).map(stand_in::StandIn::name),
+            stand_in: stand_in::of(configuration.kept).map(stand_in::StandIn::name),
             ..point(Scheme::Galpix, configuration, measured.frames)
         })
     }
@@ -164,7 +146,7 @@ impl Study<'_> {
     fn floats(&self, configuration: &Configuration) -> Point {
         let mut measured = measure::floats(&self.reference, configuration);
         for frame in &mut measured.frames {
-            frame.left_out_px = self.reference.left_out_px(configuration.kept.lanes(), frame.frame);
+            frame.left_out_px = self.reference.left_out_px(configuration.kept.layout(), frame.frame);
         }
         let bytes = float::maps(configuration.kept, 1, 1).map_or(0, |maps| maps.bytes_per_pixel());
         let used_bits = 8 * bytes as u32;
@@ -183,9 +165,8 @@ impl Study<'_> {
         let mut makers: Vec<Maker<'_>> = Vec::new();
         for candidate in candidates {
             makers.push(Box::new(move || {
-                let budget = Chosen::<Shaded>::with_lanes(candidate.bits, candidate.configuration.kept.lanes()).ok()?;
                 let inpaint = candidate.configuration.rung.inpaint();
-                Some(Box::new(Engine::<Shaded, _>::new(update, budget, candidate.settings, inpaint)?))
+                Some(Box::new(Engine::new(update, candidate.format, candidate.settings, inpaint)?))
             }));
         }
         for configuration in floats {
@@ -197,12 +178,12 @@ impl Study<'_> {
         }
         let mut fixed: Vec<(String, Fill)> = Vec::new();
         for candidate in candidates {
-            let Some(stand_in) = stand_in::of(candidate.configuration.kept, candidate.record.words()) else { continue };
+            let Some(stand_in) = stand_in::of(candidate.configuration.kept) else { continue };
             let kind = (stand_in.name(), candidate.configuration.rung);
             if !fixed.contains(&kind) {
                 fixed.push(kind);
                 // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another number.
-                let settings = self.stand_in_settings(stand_in, candidate);
+                let settings = self.settings(&candidate.configuration, &stand_in.record);
                 let inpaint = candidate.configuration.rung.inpaint();
                 makers.push(Box::new(move || stand_in.contender(update, settings, inpaint)));
             }
@@ -222,14 +203,6 @@ impl Study<'_> {
                 None => point.compile_time = time,
             }
         }
-    }
-
-    fn stand_in_settings(&self, stand_in: &stand_in::StandIn, candidate: &Candidate) -> Settings {
-        let request =
-            Request { rounding: candidate.configuration.rounding, fill: candidate.configuration.rung, ..self.request };
-        let bits = Step::DERIVED.bits(stand_in.demand, stand_in.kept.lanes(), &self.ranges);
-        let record = bits.and_then(|bits| self.record(stand_in.kept, bits));
-        record.map_or(candidate.settings, |record| settings(&record, self.reference.update.depth_kind, &request))
     }
 }
 
@@ -260,7 +233,8 @@ struct Arithmetic([u32; 6], bool, &'static str);
 
 impl Arithmetic {
     fn of(candidate: &Candidate) -> Self {
-        let scale = &candidate.record.scales[0];
+        let record = candidate.format.record();
+        let scale = &record.scales[0];
         Self(
             [
                 scale.acceleration_up,
@@ -270,7 +244,7 @@ impl Arithmetic {
                 scale.velocity_frac,
                 scale.acceleration_frac,
             ],
-            candidate.configuration.kept.lanes().acceleration,
+            record.layout().acceleration,
             candidate.settings.rounding.name(),
         )
     }

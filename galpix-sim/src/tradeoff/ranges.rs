@@ -1,7 +1,7 @@
 //! What the motion of an update ranges over: how many integer bits its scene really needs, and what leaves a field.
 
-use galpix_core::budget::{Bits, Component};
-use galpix_core::layout::Lanes;
+use galpix_core::record::Component;
+use galpix_core::{Bits, Layout};
 
 use crate::update::{Known, Sample, Update};
 
@@ -36,9 +36,9 @@ impl Ranges {
     /// The component without the integer bits that nothing in the update uses. `bins` is the logarithm of the units of a
     /// whole range: 0 in the plane, the bits of the depth's bins in depth.
     #[must_use]
-    pub fn fit(&self, component: Component, axis: usize, bins: u32, lanes: Lanes) -> Component {
+    pub fn fit(&self, component: Component, axis: usize, bins: u32, layout: Layout) -> Component {
         let unit = f64::from(1u32 << bins.min(31));
-        let velocity = if lanes.acceleration { self.any[axis] } else { self.first[axis] };
+        let velocity = if layout.acceleration { self.any[axis] } else { self.first[axis] };
         Component {
             velocity_int: component.velocity_int.min(integer_bits(velocity * unit, component.velocity_frac)),
             acceleration_int: component
@@ -68,15 +68,15 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Of a sample in x (0) or y (1). What the lanes lack is 0.
+    /// Of a sample in x (0) or y (1). What the layout lacks is 0.
     #[must_use]
-    pub fn of(sample: &Sample, axis: usize, bits: Bits, lanes: Lanes, frame: u32) -> Self {
-        if !lanes.velocity {
+    pub fn of(sample: &Sample, axis: usize, bits: Bits, layout: Layout, frame: u32) -> Self {
+        if !layout.velocity {
             return Self { velocity: 0.0, acceleration: 0.0, fits: true };
         }
         let component = if axis == 0 { bits.x } else { bits.y };
         let (velocity, fits) = stored(sample.velocity[axis], component.velocity_bits(), component.velocity_frac);
-        if !lanes.acceleration {
+        if !layout.acceleration {
             return Self { velocity, acceleration: 0.0, fits };
         }
         let (acceleration, a_fits) =
@@ -126,11 +126,11 @@ mod tests {
         let bits =
             Bits { x: component, y: component, z: component, depth_int: 8, luminosity_int: 4, luminosity_frac: 4 };
         let sample = Sample { velocity: [2.1, 0.0, 0.0], acceleration: [0.5, 0.0, 0.0], ..Sample::default() };
-        let at = |frame| Stored::of(&sample, 0, bits, Lanes::FULL, frame);
+        let at = |frame| Stored::of(&sample, 0, bits, Layout::FULL, frame);
         // 2.1 is stored as 2.0; 3.75 is the largest that fits: 2 + 0.5 * 3 does, 2 + 0.5 * 4 does not.
         assert_eq!(at(1), Stored { velocity: 2.0, acceleration: 0.5, fits: true });
         assert!(at(4).fits && !at(5).fits);
         assert_eq!(at(4).way(4), 12.0);
-        assert!(Stored::of(&sample, 0, bits, Lanes::VELOCITY_XY, 100).fits);
+        assert!(Stored::of(&sample, 0, bits, Layout::VELOCITY565, 100).fits);
     }
 }

@@ -3,14 +3,10 @@
 //! A scene is rendered anew at every N-th frame; the picture of an update itself is without error, so that every frame of
 //! the display counts once at each rate. A capture has one update: it is held against its true pictures by age instead.
 
-use galpix_core::budget::Bits;
-use galpix_core::frame::Settings;
-use galpix_core::layout::Shaded;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::causes::Pair;
-use super::design::Configuration;
 use crate::engine::{Engine, EngineError};
 use crate::metric;
 use crate::picture::Picture;
@@ -95,20 +91,12 @@ pub fn length(frames: u32) -> u32 {
     EVERY.into_iter().find(|&every| every >= frames).unwrap_or(32)
 }
 
-/// The rates of a scene; `settings` and `bits` are those of the engine between the updates.
+/// The rates of a scene; `engine` makes the frames between the updates.
 ///
-/// *Errors:* a budget that does not fit the lanes.
-pub fn rates(
-    scene: &dyn Scene,
-    frames: u32,
-    bits: Bits,
-    configuration: &Configuration,
-    settings: Settings,
-) -> Result<Vec<Rate>, EngineError> {
+/// *Errors:* an update that cannot be laid out.
+pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate>, EngineError> {
     let length = length(frames);
     let truths: Vec<Picture> = (0..length).map(|t| scene::render(scene, f64::from(t))).collect();
-    let engine = Engine::<Shaded>::with_lanes(bits, configuration.kept.lanes(), settings)?
-        .inpainting(configuration.rung.inpaint());
     let everies: Vec<u32> = EVERY.into_iter().filter(|&every| every <= length).collect();
     // What follows an update does not depend on when the next one comes: each is extrapolated once, for the slowest rate.
     let starts: Vec<u32> = (0..length).filter(|start| start % 2 == 0 || length == 1).collect();

@@ -1,6 +1,6 @@
 //! What the frames of a source are held against: the true pictures, the true paths, and the exact second-order paths.
 
-use galpix_core::layout::Lanes;
+use galpix_core::Layout;
 use rayon::prelude::*;
 
 use crate::experiment::Source;
@@ -85,10 +85,10 @@ impl<'s> Reference<'s> {
 
     /// The most that lanes which are left out would have moved a sample by, up to `frame`, in pixels.
     #[must_use]
-    pub fn left_out_px(&self, lanes: Lanes, frame: u32) -> f64 {
+    pub fn left_out_px(&self, layout: Layout, frame: u32) -> f64 {
         let known = self.update.samples.iter().filter(|sample| sample.known == Known::Motion);
         let gone = |sample: &Sample| {
-            let [full, kept] = [way(sample, Lanes::FULL, frame), way(sample, lanes, frame)];
+            let [full, kept] = [way(sample, Layout::FULL, frame), way(sample, layout, frame)];
             (full[0] - kept[0]).abs().max((full[1] - kept[1]).abs())
         };
         known.map(gone).fold(0.0, f64::max)
@@ -97,11 +97,11 @@ impl<'s> Reference<'s> {
 
 /// The exact way in x and y of a sample with some lanes, in pixels.
 #[must_use]
-pub fn way(sample: &Sample, lanes: Lanes, frame: u32) -> [f64; 2] {
+pub fn way(sample: &Sample, layout: Layout, frame: u32) -> [f64; 2] {
     let n = f64::from(frame);
     [0, 1].map(|axis| {
-        let velocity = if lanes.velocity { sample.velocity[axis] } else { 0.0 };
-        let acceleration = if lanes.acceleration { sample.acceleration[axis] } else { 0.0 };
+        let velocity = if layout.velocity { sample.velocity[axis] } else { 0.0 };
+        let acceleration = if layout.acceleration { sample.acceleration[axis] } else { 0.0 };
         velocity * n + acceleration / 2.0 * n * n
     })
 }

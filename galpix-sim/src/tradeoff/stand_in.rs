@@ -1,75 +1,71 @@
-//! Budgets fixed at compile time, in whose form a product runs. One for each choice of lanes and number of words: a frame's
-//! time depends on these, on the rung and on the picture, and hardly on single bits. So a configuration takes the time of
-//! the stand-in that has its lanes and the number of words that is nearest to its own.
+//! Formats fixed at compile time, in whose form a product runs: a frame's time depends on the lanes, on the number of words, on
+//! the rung and on the picture, and hardly on single bits. So a configuration takes the time of the stand-in that has its
+//! lanes, where there is one. Each is compiled on its own, so there are few: other lanes are timed in the form chosen at run
+//! time alone.
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::colour::Rgb888;
-use galpix_core::frame::Settings;
-use galpix_core::galpixel::{Fixed, Profile, Static};
-use galpix_core::layout::{Lanes, Layout};
+use galpix_core::{Bits, Demand, Layout, Profile, Record, Settings, Static};
 
 use super::design::Kept;
 use super::timing::{Contender, Engine};
 use crate::fill::Inpaint;
 use crate::update::Update;
 
-/// Makes the contender of an update; none if its maps cannot be laid out.
-type Make = fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>;
+/// The design numbers of all stand-ins: the paper's.
+const DEMAND: Demand = Demand { extent: 1024, recog: 8, prop: 16 };
 
-/// A budget and lanes that are fixed at compile time.
+/// A format that is fixed at compile time.
 #[derive(Clone, Copy)]
 pub struct StandIn {
     /// Its lanes.
     pub kept: Kept,
-    /// Its words.
-    pub words: usize,
-    /// `D`, `tau_recog` and `tau_prop` of its budget.
-    pub demand: Demand,
-    make: Make,
+    /// Its stored form.
+    pub record: Record,
+    make: fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>,
 }
 
-macro_rules! stand_ins {
-    ($($name:ident: $kept:ident, $extent:literal, $prop:literal, $derive:ident;)*) => {
-        $(
-            enum $name {}
-            impl Layout for $name {
-                type Colour = Rgb888;
-                const LANES: Lanes = Kept::$kept.lanes();
-            }
-            impl Profile for $name {
-                const BITS: Bits = Bits::must(Bits::$derive(Demand { extent: $extent, recog: 8, prop: $prop }));
-            }
-        )*
-        /// All of them.
-        pub const ALL: &[StandIn] = &[$(StandIn {
-            kept: Kept::$kept,
-            words: <Static<$name> as Fixed<$name>>::RECORD.words(),
-            demand: Demand { extent: $extent, recog: 8, prop: $prop },
-            make: |update, settings, inpaint| {
-                Some(Box::new(Engine::<$name, Static<$name>>::new(update, Static::new(), settings, inpaint)?))
-            },
-        }),*];
-    };
+enum Still {}
+
+impl Profile for Still {
+    const LAYOUT: Layout = Kept::Still.layout();
+    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
 }
 
-stand_ins! {
-    Still: Still, 1024, 16, derive;
-    Velocity: Velocity, 1024, 32, derive_without_acceleration;
-    VelocityDepth: VelocityDepth, 1024, 32, derive_without_acceleration;
-    Acceleration: Acceleration, 1024, 32, derive;
-    Full: Full, 1024, 16, derive;
-    FullLong: Full, 1024, 32, derive;
-    Luminosity: Luminosity, 1024, 32, derive;
+enum Velocity {}
+
+impl Profile for Velocity {
+    const LAYOUT: Layout = Kept::Velocity.layout();
+    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
 }
 
-/// The stand-in for some lanes and words.
+enum Full {}
+
+impl Profile for Full {
+    const LAYOUT: Layout = Kept::Full.layout();
+    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
+}
+
+/// All of them.
+pub static ALL: [StandIn; 3] =
+    [StandIn::of::<Still>(Kept::Still), StandIn::of::<Velocity>(Kept::Velocity), StandIn::of::<Full>(Kept::Full)];
+
+/// Returns the stand-in for some lanes, if there is one.
 #[must_use]
-pub fn of(kept: Kept, words: usize) -> Option<&'static StandIn> {
-    ALL.iter().filter(|stand_in| stand_in.kept == kept).min_by_key(|stand_in| stand_in.words.abs_diff(words))
+pub fn of(kept: Kept) -> Option<&'static StandIn> {
+    ALL.iter().find(|stand_in| stand_in.kept == kept)
 }
 
 impl StandIn {
-    /// The engine of this stand-in over an update.
+    const fn of<P: Profile + 'static>(kept: Kept) -> Self {
+        Self {
+            kept,
+            record: Static::<P>::RECORD,
+            make: |update, settings, inpaint| {
+                Some(Box::new(Engine::new(update, Static::<P>::new(), settings, inpaint)?))
+            },
+        }
+    }
+
+    /// Makes its engine over an update; none if its maps cannot be laid out.
     #[must_use]
     pub fn contender(
         &self,
@@ -80,10 +76,10 @@ impl StandIn {
         (self.make)(update, settings, inpaint)
     }
 
-    /// Its name: lanes and words.
+    /// Returns its name: lanes and words.
     #[must_use]
     pub fn name(&self) -> String {
-        format!("{} in {} words", self.kept.name(), self.words)
+        format!("{} in {} words", self.kept.name(), self.record.words())
     }
 }
 
@@ -92,13 +88,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_choice_of_lanes_has_a_stand_in_of_its_own_words() {
-        for kept in Kept::ALL {
-            assert!(ALL.iter().any(|stand_in| stand_in.kept == kept), "{}", kept.name());
-        }
-        let words: Vec<usize> = ALL.iter().map(|stand_in| stand_in.words).collect();
-        assert_eq!(words, [1, 3, 3, 4, 5, 6, 6]);
-        assert_eq!(of(Kept::Full, 9).map(|stand_in| stand_in.words), Some(6));
-        assert_eq!(of(Kept::Full, 4).map(|stand_in| stand_in.words), Some(5));
+    fn stand_ins_are_found_by_their_lanes() {
+        let names = Kept::ALL.map(|kept| of(kept).map(StandIn::name));
+        let [still, velocity, full] = ["still in 1 words", "velocity in 3 words", "full in 5 words"];
+        let expected = [Some(still), Some(velocity), None, None, Some(full), None];
+        assert_eq!(names.each_ref().map(Option::as_deref), expected);
     }
 }

@@ -9,17 +9,11 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use galpix_core::edge;
-use galpix_core::fill::Rung;
-use galpix_core::frame::{Controller, Scratch, Settings};
-use galpix_core::galpixel::Budget;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
-use galpix_core::layout::Layout;
+use galpix_core::{Controller, FillMode, Format, Galpixmap, Grid, Margin, Scratch, Settings, stages};
 use serde::Serialize;
 
 use super::float::Floats;
-use crate::engine::{core_wings, load};
+use crate::engine::{load, margin};
 use crate::fill::{Inpaint, Inpainter};
 use crate::update::Update;
 
@@ -54,11 +48,11 @@ pub struct Time {
 }
 
 /// The engine over memory of its own, without anything around it.
-pub struct Engine<L, B> {
-    budget: B,
+pub struct Engine<F> {
+    format: F,
     settings: Settings,
     size: (u32, u32),
-    wings: Wings,
+    margin: Margin,
     starts: Vec<u32>,
     front: Vec<u32>,
     back: Vec<u32>,
@@ -66,55 +60,54 @@ pub struct Engine<L, B> {
     edges: Vec<u32>,
     frame: u32,
     inpainter: Option<Inpainter>,
-    layout: std::marker::PhantomData<L>,
 }
 
-impl<L: Layout, B: Budget<L>> Engine<L, B> {
+impl<F: Format> Engine<F> {
     /// For updates of the size of this one, with what follows each frame; `None` where such a map cannot be.
     #[must_use]
-    pub fn new(update: &Update, budget: B, settings: Settings, inpaint: Option<Inpaint>) -> Option<Self> {
-        let wings = core_wings(update.wings);
+    pub fn new(update: &Update, format: F, settings: Settings, inpaint: Option<Inpaint>) -> Option<Self> {
+        let margin = margin(update.wings);
         let size = (update.display_width() as u32, update.display_height() as u32);
-        let mut starts = vec![0; Grid::rows(size.1, wings)];
-        let grid = Grid::new(size.0, size.1, wings, &mut starts).ok()?;
-        let words = Galpixmap::<L, B>::words(&grid, budget);
-        // Rungs that do not tell surfaces apart need no scratch memory, and a product would not lend any.
-        let scratch = if settings.rung.tells_surfaces() { (grid.cells() as usize, edge::words(&grid)) } else { (0, 0) };
+        let mut starts = vec![0; Grid::rows(size.1, margin)];
+        let grid = Grid::new(size.0, size.1, margin, &mut starts).ok()?;
+        let words = Galpixmap::words(&grid, format);
+        // Fill modes that use no edges need no scratch memory, and a product would not lend any.
+        let uses_edges = settings.fill_mode.uses_edges();
+        let scratch = if uses_edges { (grid.cells() as usize, stages::words(&grid)) } else { (0, 0) };
         let inpainter = inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         Some(Self {
-            budget,
+            format,
             inpainter,
             settings,
             size,
-            wings,
+            margin,
             front: vec![0; words],
             back: vec![0; words],
             winners: vec![0; scratch.0],
             edges: vec![0; scratch.1],
             starts,
             frame: 0,
-            layout: std::marker::PhantomData,
         })
     }
 }
 
-impl<L: Layout, B: Budget<L>> Contender for Engine<L, B> {
+impl<F: Format> Contender for Engine<F> {
     fn bytes(&self) -> usize {
         self.front.len() * 4
     }
 
     fn restart(&mut self, update: &Update) {
         self.frame = 0;
-        let Ok(grid) = Grid::new(self.size.0, self.size.1, self.wings, &mut self.starts) else { return };
-        if let Ok(mut map) = Galpixmap::<L, B>::new(grid, self.budget, &mut self.front) {
+        let Ok(grid) = Grid::new(self.size.0, self.size.1, self.margin, &mut self.starts) else { return };
+        if let Ok(mut map) = Galpixmap::new(grid, self.format, &mut self.front) {
             load(update, &mut map);
         }
     }
 
     fn step(&mut self) {
-        let Ok(grid) = Grid::new(self.size.0, self.size.1, self.wings, &mut self.starts) else { return };
-        let front = Galpixmap::<L, B>::over(grid, self.budget, &mut self.front);
-        let back = Galpixmap::<L, B>::over(grid, self.budget, &mut self.back);
+        let Ok(grid) = Grid::new(self.size.0, self.size.1, self.margin, &mut self.starts) else { return };
+        let front = Galpixmap::over(grid, self.format, &mut self.front);
+        let back = Galpixmap::over(grid, self.format, &mut self.back);
         if let (Ok(front), Ok(back)) = (front, back) {
             let scratch = Scratch { winners: &mut self.winners, edges: &mut self.edges };
             let Ok(mut controller) = Controller::new(front, back, scratch) else { return };
@@ -134,7 +127,7 @@ pub struct InFloats {
     /// The maps.
     pub maps: Box<dyn Floats>,
     /// What is put into holes.
-    pub rung: Rung,
+    pub rung: FillMode,
     /// Pixels of a map.
     pub cells: usize,
 }

@@ -1,233 +1,234 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
-//! `proof_*` must reach no panic, no multiplication, no division and no float, but for `proof_inpaint_*` and `proof_submit_*`, which may multiply;
-//! `distorted_*` must reach no panic;
-//! `planted_*` each reach one of them on purpose, so that the inspection is seen to find it. All arguments are opaque to the optimiser: maps, scratch memory and
-//! settings come from outside.
+//! `proof_*` must reach no panic, no multiplication, no division and no float, but for those that inpaint, go over
+//! layers, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no panic. `planted_*`
+//! each reach one of these on purpose, so that the inspection is seen to find it. All arguments are opaque to the
+//! optimiser: maps, scratch memory and settings come from outside.
 
 #![no_std]
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::disocclusion::Reach;
-use galpix_core::frame::{self, Controller, Inpainting, Scratch, Settings, Work};
-use galpix_core::galpixel::{Profile, Static};
-use galpix_core::galpixmap::Galpixmap;
+use galpix_core::disocclusion::{self, Reach};
+use galpix_core::inpaint::map::Uncovered;
 use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::push_pull::dense;
 use galpix_core::inpaint::pyramid::Pyramid;
-use galpix_core::layers::{Layers, LayersTally};
-use galpix_core::layout::{Flat565, Full, Layout, Shaded, Tagged, Velocity565, VelocityGray4};
+use galpix_core::layers::Layers;
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
-use galpix_core::rounding::Rounding;
-use galpix_core::tally::Tally;
-use galpix_core::{disocclusion, edge, fill, scan_out, sweep};
+use galpix_core::{
+    Bits, Controller, Demand, Galpixmap, Inpainting, Layout, Profile, Rounding, Scratch, Settings, Static, Tally,
+    scan_out, stages,
+};
 
+/// A panel of up to 512 pixels a side.
 const DEMAND: Demand = Demand { extent: 512, recog: 8, prop: 16 };
+const WITH_ACCELERATION: Bits = Bits::must(Bits::derive(DEMAND));
+const WITHOUT_ACCELERATION: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
 
-/// A panel of up to 512 pixels a side, with acceleration.
-#[derive(Debug)]
-pub struct Panel;
+/// Declares the format of a module.
+macro_rules! fields {
+    ($layout:ident, $bits:ident) => {
+        use super::*;
 
-impl Profile for Panel {
-    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
+        /// Which fields there are, and their widths.
+        #[derive(Debug)]
+        pub struct Fields;
+
+        impl Profile for Fields {
+            const LAYOUT: Layout = Layout::$layout;
+            const BITS: Bits = $bits;
+        }
+
+        type Format = Static<Fields>;
+    };
 }
 
-/// The same without acceleration.
-#[derive(Debug)]
-pub struct PanelVelocity;
+macro_rules! passes {
+    ($($name:ident: $layout:ident, $bits:ident;)*) => {$(
+        /// The passes of this format.
+        pub mod $name {
+            fields!($layout, $bits);
 
-impl Profile for PanelVelocity {
-    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
-}
-
-macro_rules! proofs {
-    ($($layout:ident, $profile:ident: $sweep:ident, $edge:ident, $fill:ident, $step:ident, $constant:ident,
-        $scan_out:ident, $inpaint:ident, $rolling:ident, $overlay:ident, $disocclusion:ident, $cover:ident, $layers:ident;)*) => {$(
-        /// Propagation and resolution.
-        #[unsafe(no_mangle)]
-        pub fn $sweep(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
-            winners: &mut [u32],
-            rounding: Rounding,
-            frame: u32,
-        ) -> Tally {
-            sweep::sweep(front, back, winners, rounding, frame)
-        }
-
-        /// The edge map.
-        #[unsafe(no_mangle)]
-        pub fn $edge(front: &Galpixmap<'_, $layout, Static<$profile>>, threshold: u32, edges: &mut [u32]) -> u32 {
-            edge::mark(front, threshold, edges)
-        }
-
-        /// The fill ladder.
-        #[unsafe(no_mangle)]
-        pub fn $fill(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
-            scratch: &mut Scratch<'_>,
-            settings: &Settings,
-            tally: &mut Tally,
-        ) {
-            fill::fill(front, back, scratch.winners, scratch.edges, settings.rung, settings.reach, tally);
-        }
-
-        /// A whole frame.
-        #[unsafe(no_mangle)]
-        pub fn $step(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
-            scratch: &mut Scratch<'_>,
-            settings: &Settings,
-            frame: u32,
-        ) -> Tally {
-            frame::step(front, back, scratch, settings, frame)
-        }
-
-        /// A whole frame with constant work.
-        #[unsafe(no_mangle)]
-        pub fn $constant(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            back: &mut Galpixmap<'_, $layout, Static<$profile>>,
-            scratch: &mut Scratch<'_>,
-            settings: &Settings,
-            frame: u32,
-        ) -> Tally {
-            frame::step(front, back, scratch, &Settings { work: Work::Constant, ..*settings }, frame)
-        }
-
-        /// Quads and push-pull, sparse and dense, of colours with their motion.
-        #[unsafe(no_mangle)]
-        pub fn $inpaint(
-            controller: &mut Controller<'_, $layout, Static<$profile>>,
-            settings: &Settings,
-            inpainting: &Inpainting<'_>,
-            pyramid: &mut Pyramid<'_, Moving>,
-        ) -> u32 {
-            controller.inpaint(settings, inpainting, pyramid)
-        }
-
-        /// Push-pull in one map, of colours.
-        #[unsafe(no_mangle)]
-        pub fn $rolling(
-            rolling: &mut Rolling<'_, $layout, Static<$profile>>,
-            settings: &Settings,
-            inpainting: &Inpainting<'_>,
-            pyramid: &mut Pyramid<'_, Tint>,
-        ) -> u32 {
-            rolling.inpaint(settings, inpainting, pyramid)
-        }
-
-        /// The disocclusion map, marked and spread in raster order.
-        #[unsafe(no_mangle)]
-        pub fn $disocclusion(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            extents: &mut [u32],
-            reach: &Reach,
-        ) -> disocclusion::Tally {
-            disocclusion::map(front, extents, reach)
-        }
-
-        /// Its cells, a bit each, with a line of memory.
-        #[unsafe(no_mangle)]
-        pub fn $cover(
-            front: &Galpixmap<'_, $layout, Static<$profile>>,
-            line: &mut [u32],
-            mask: &mut [u32],
-            reach: &Reach,
-        ) -> disocclusion::Tally {
-            disocclusion::cover(front, line, mask, reach)
-        }
-
-        /// A frame of three layers, any of which but the base may be anchored, and what they showed before it.
-        #[unsafe(no_mangle)]
-        pub fn $layers(
-            layers: &mut Layers<'_, $layout, Static<$profile>, 2>,
-            settings: &Settings,
-            cell: u32,
-        ) -> (usize, LayersTally<2>) {
-            layers.resolve(settings.work);
-            (layers.layer_at(cell), layers.step(settings))
-        }
-
-        /// A row for a display of 16-bit words.
-        #[unsafe(no_mangle)]
-        pub fn $scan_out(map: &Galpixmap<'_, $layout, Static<$profile>>, y: u32, line: &mut [u16]) {
-            for (word, colour) in line.iter_mut().zip(scan_out::row(map, y)) {
-                *word = colour as u16;
+            /// Propagation and resolution.
+            #[unsafe(export_name = concat!("proof_sweep_", stringify!($name)))]
+            pub fn sweep(
+                front: &Galpixmap<'_, Format>,
+                back: &mut Galpixmap<'_, Format>,
+                winners: &mut [u32],
+                rounding: Rounding,
+                frame: u32,
+            ) -> Tally {
+                stages::sweep(front, back, winners, rounding, frame)
             }
-        }
 
-        /// The same under an overlay.
-        #[unsafe(no_mangle)]
-        pub fn $overlay(
-            map: &Galpixmap<'_, $layout, Static<$profile>>,
-            overlay: &Overlay<'_, <$layout as Layout>::Colour>,
-            y: u32,
-            line: &mut [u16],
-        ) {
-            for (word, colour) in line.iter_mut().zip(overlay::row(map, overlay, y)) {
-                *word = colour as u16;
+            /// The edge map.
+            #[unsafe(export_name = concat!("proof_edge_", stringify!($name)))]
+            pub fn edge(front: &Galpixmap<'_, Format>, threshold: u32, edges: &mut [u32]) -> u32 {
+                stages::mark(front, threshold, edges)
+            }
+
+            /// The fill ladder.
+            #[unsafe(export_name = concat!("proof_fill_", stringify!($name)))]
+            pub fn fill(
+                front: &Galpixmap<'_, Format>,
+                back: &mut Galpixmap<'_, Format>,
+                scratch: &mut Scratch<'_>,
+                settings: &Settings,
+                tally: &mut Tally,
+            ) {
+                stages::fill(front, back, scratch.winners, scratch.edges, settings.fill_mode, settings.reach, tally);
+            }
+
+            /// A whole frame.
+            #[unsafe(export_name = concat!("proof_step_", stringify!($name)))]
+            pub fn step(controller: &mut Controller<'_, Format>, settings: &Settings) -> Tally {
+                controller.step(settings)
+            }
+
+            /// A whole frame in constant time.
+            #[unsafe(export_name = concat!("proof_constant_", stringify!($name)))]
+            pub fn constant(controller: &mut Controller<'_, Format>, settings: &Settings) -> Tally {
+                controller.step_constant_time(settings)
+            }
+
+            /// Quads and push-pull, sparse and dense, of colours with their motion.
+            #[unsafe(export_name = concat!("proof_inpaint_", stringify!($name)))]
+            pub fn inpaint(
+                controller: &mut Controller<'_, Format>,
+                settings: &Settings,
+                inpainting: &Inpainting<'_>,
+                pyramid: &mut Pyramid<'_, Moving>,
+            ) -> u32 {
+                let holes = controller.inpaint(settings, inpainting, pyramid);
+                let mut picture = Uncovered::<_, Moving>::new(controller.front_mut(), inpainting.mask);
+                holes.wrapping_add(dense(&mut picture, pyramid, &inpainting.rule))
+            }
+
+            /// Push-pull in one map, of colours.
+            #[unsafe(export_name = concat!("proof_inpaint_rolling_", stringify!($name)))]
+            pub fn inpaint_rolling(
+                rolling: &mut Rolling<'_, Format>,
+                inpainting: &Inpainting<'_>,
+                pyramid: &mut Pyramid<'_, Tint>,
+            ) -> u32 {
+                rolling.inpaint(inpainting, pyramid)
+            }
+
+            /// The disocclusion map, marked and spread in raster order.
+            #[unsafe(export_name = concat!("proof_disocclusion_", stringify!($name)))]
+            pub fn disocclusion(
+                front: &Galpixmap<'_, Format>,
+                extents: &mut [u32],
+                reach: &Reach,
+            ) -> disocclusion::Tally {
+                disocclusion::map(front, extents, reach)
+            }
+
+            /// Its cells, a bit each, with a line of memory.
+            #[unsafe(export_name = concat!("proof_cover_", stringify!($name)))]
+            pub fn cover(
+                front: &Galpixmap<'_, Format>,
+                line: &mut [u32],
+                mask: &mut [u32],
+                reach: &Reach,
+            ) -> disocclusion::Tally {
+                disocclusion::cover(front, line, mask, reach)
+            }
+
+            /// A frame of layers, in either mode, and what they showed before it. Any but the base may be stationary.
+            #[unsafe(export_name = concat!("proof_layers_", stringify!($name)))]
+            pub fn layers(
+                layers: &mut Layers<'_, '_, Format>,
+                settings: &Settings,
+                constant_time: bool,
+                cell: u32,
+            ) -> (usize, Tally) {
+                layers.composite();
+                let shown = layers.layer_at(cell);
+                (shown, if constant_time { layers.step_constant_time(settings) } else { layers.step(settings) })
+            }
+
+            /// A row for a display of 16-bit words.
+            #[unsafe(export_name = concat!("proof_scan_out_", stringify!($name)))]
+            pub fn scan_out(map: &Galpixmap<'_, Format>, y: u32, line: &mut [u16]) {
+                for (word, colour) in line.iter_mut().zip(scan_out::row(map, y)) {
+                    *word = colour as u16;
+                }
+            }
+
+            /// The same under an overlay.
+            #[unsafe(export_name = concat!("proof_overlay_", stringify!($name)))]
+            pub fn overlay(
+                map: &Galpixmap<'_, Format>,
+                overlay: &Overlay<'_>,
+                y: u32,
+                line: &mut [u16],
+            ) {
+                for (word, colour) in line.iter_mut().zip(overlay::row(map, overlay, y)) {
+                    *word = colour as u16;
+                }
             }
         }
     )*};
 }
 
-macro_rules! object_proofs {
-    ($($layout:ident: $submit:ident, $apply:ident;)*) => {$(
-        /// Takes an object's rendering, or refuses it.
-        #[unsafe(no_mangle)]
-        pub fn $submit(
-            queue: &mut Queue<'_, $layout, Static<Panel>, 4>,
-            layers: &Layers<'_, $layout, Static<Panel>, 1>,
-            object: &Object,
-            words: &[u32],
-        ) -> bool {
-            queue.submit(layers, object, words).is_ok()
-        }
+/// Of layouts with a tag.
+macro_rules! objects {
+    ($($name:ident: $layout:ident, $bits:ident;)*) => {$(
+        /// What replaces objects in maps of this format.
+        pub mod $name {
+            fields!($layout, $bits);
 
-        /// Replaces objects in two layers.
-        #[unsafe(no_mangle)]
-        pub fn $apply(
-            queue: &mut Queue<'_, $layout, Static<Panel>, 4>,
-            layers: &mut Layers<'_, $layout, Static<Panel>, 1>,
-            rounding: Rounding,
-            most: u32,
-        ) -> ObjectsTally {
-            queue.apply(layers, rounding, most)
+            /// Takes an object's rendering, or refuses it.
+            #[unsafe(export_name = concat!("proof_submit_", stringify!($name)))]
+            pub fn submit(
+                queue: &mut Queue<'_, Format>,
+                layers: &Layers<'_, '_, Format>,
+                object: &Object,
+                words: &[u32],
+            ) -> bool {
+                queue.submit(layers, object, words).is_ok()
+            }
+
+            /// Replaces objects in layers.
+            #[unsafe(export_name = concat!("proof_apply_", stringify!($name)))]
+            pub fn apply(
+                queue: &mut Queue<'_, Format>,
+                layers: &mut Layers<'_, '_, Format>,
+                rounding: Rounding,
+                most: u32,
+            ) -> ObjectsTally {
+                queue.apply(layers, rounding, most)
+            }
         }
     )*};
 }
 
-object_proofs! {
-    Tagged: proof_submit_tagged, proof_apply_tagged;
-    Shaded: proof_submit_shaded, proof_apply_shaded;
+passes! {
+    full: FULL, WITH_ACCELERATION;
+    shaded: SHADED, WITH_ACCELERATION;
+    flat565: FLAT565, WITH_ACCELERATION;
+    velocity565: VELOCITY565, WITHOUT_ACCELERATION;
+    velocity_gray4: VELOCITY_GRAY4, WITHOUT_ACCELERATION;
 }
 
-proofs! {
-    Full, Panel: proof_sweep_full, proof_edge_full, proof_fill_full, proof_step_full, proof_constant_full, proof_scan_out_full,
-        proof_inpaint_full, proof_inpaint_rolling_full, proof_overlay_full, proof_disocclusion_full, proof_cover_full, proof_layers_full;
-    Shaded, Panel: proof_sweep_shaded, proof_edge_shaded, proof_fill_shaded, proof_step_shaded, proof_constant_shaded, proof_scan_out_shaded,
-        proof_inpaint_shaded, proof_inpaint_rolling_shaded, proof_overlay_shaded, proof_disocclusion_shaded, proof_cover_shaded, proof_layers_shaded;
-    Flat565, Panel: proof_sweep_flat565, proof_edge_flat565, proof_fill_flat565, proof_step_flat565, proof_constant_flat565,
-        proof_scan_out_flat565,
-        proof_inpaint_flat565, proof_inpaint_rolling_flat565, proof_overlay_flat565, proof_disocclusion_flat565, proof_cover_flat565, proof_layers_flat565;
-    Velocity565, PanelVelocity: proof_sweep_velocity565, proof_edge_velocity565, proof_fill_velocity565,
-        proof_step_velocity565, proof_constant_velocity565, proof_scan_out_velocity565,
-        proof_inpaint_velocity565, proof_inpaint_rolling_velocity565, proof_overlay_velocity565, proof_disocclusion_velocity565, proof_cover_velocity565, proof_layers_velocity565;
-    VelocityGray4, PanelVelocity: proof_sweep_velocity_gray4, proof_edge_velocity_gray4, proof_fill_velocity_gray4,
-        proof_step_velocity_gray4, proof_constant_velocity_gray4, proof_scan_out_velocity_gray4,
-        proof_inpaint_velocity_gray4, proof_inpaint_rolling_velocity_gray4, proof_overlay_velocity_gray4, proof_disocclusion_velocity_gray4, proof_cover_velocity_gray4, proof_layers_velocity_gray4;
+/// What replaces objects, beside the passes.
+pub mod of_objects {
+    use super::*;
+
+    objects! {
+        tagged: TAGGED, WITH_ACCELERATION;
+        shaded: SHADED, WITH_ACCELERATION;
+    }
 }
 
 mod distorted {
     //! The distortion map of the DDOC: it multiplies and divides, and reaches no panic.
 
+    use galpix_core::Grid;
     use galpix_core::ddoc::splat::Splat;
     use galpix_core::ddoc::{DistortionMap, Settings, Tally};
-    use galpix_core::grid::Grid;
 
     /// The map from depths.
     #[unsafe(no_mangle)]

@@ -78,7 +78,8 @@ impl Board {
 
     /// The panel's pixels on the emulated screen, with 8 bits a channel as [`Self::shown`] makes them.
     ///
-    /// The OLED is drawn four times as large; each pixel's block must be of one colour. The LCD's pixels are as they are.
+    /// The OLED is drawn four times as large; each pixel's block must be of one colour. The LCD's pixels are as they
+    /// are.
     pub fn pixels(self, screen: &Picture) -> Result<Picture, Failure> {
         let scale = match self {
             Self::Lm3s6965evb => 4,

@@ -1,7 +1,7 @@
 //! The firmware in an emulator, beside the simulator.
 //!
-//! Each command starts the boards' programs in QEMU, talks to them over their serial lines as any host does, and looks at
-//! their emulated screens. `firmware/test.sh` builds the programs and calls this.
+//! Each command starts the boards' programs in QEMU, talks to them over their serial lines as any host does, and looks
+//! at their emulated screens. `firmware/test.sh` builds the programs and calls this.
 
 mod boards;
 mod emulator;

@@ -13,8 +13,8 @@ use crate::failure::Failure;
 /// Frames that are watched.
 const FRAMES: u32 = 240;
 
-/// What a board is meant to reach at a pace: the longest frame takes at most so many million instructions a second at 60
-/// frames a second, and no vsync is missed if that is less than the pace.
+/// What a board is meant to reach at a pace: the longest frame takes at most so many million instructions a second at
+/// 60 frames a second, and no vsync is missed if that is less than the pace.
 const fn meant(board: Board, filling: Filling) -> (u32, f64) {
     match (board, filling) {
         (Board::Lm3s6965evb, Filling::Ladder) => (4, 55.0),
@@ -68,8 +68,8 @@ pub fn run(firmware: &Path, check: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Waits until so many more frames have been shown: how the board is then, and how busy in the longest of them, for it begins anew
-/// each time that it is asked.
+/// Waits until so many more frames have been shown: how the board is then, and how busy in the longest of them, for it
+/// begins anew each time that it is asked.
 fn wait(emulator: &mut Emulator, frames: u32) -> Result<galpix_link::frame::Status, Failure> {
     let begin = emulator.line.status()?.frame;
     let (started, mut busy) = (Instant::now(), 0);

@@ -30,7 +30,8 @@ type Hashes = BTreeMap<(String, String, u32), u32>;
 /// Rows of it that are sent.
 const ROWS_SENT: usize = 64;
 
-/// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board with either filling.
+/// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board with either
+/// filling.
 pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
     let mut hashes = Hashes::new();
     for (board, filling) in Board::ALL.into_iter().flat_map(|board| Filling::ALL.map(|filling| (board, filling))) {
@@ -64,7 +65,8 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
     keep(firmware, &hashes, write)
 }
 
-/// Sends an update that is exact at the frame which the board shows: that frame, and all words of each galpixel, row by row.
+/// Sends an update that is exact at the frame which the board shows: that frame, and all words of each galpixel, row by
+/// row.
 fn sent(emulator: &mut Emulator, board: Board) -> Result<(u32, Vec<u32>), Failure> {
     let panel = board.panel();
     let source = sources::find(SENT.0).ok_or_else(|| Failure::new(format!("there is no scene {}", SENT.0)))?;
@@ -113,8 +115,8 @@ pub fn lockstep(emulator: &mut Emulator) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Lets the board make frames until its rounding begins anew: else the pictures, and so the kept hashes, would depend on how
-/// many frames it had made before it was first spoken to.
+/// Lets the board make frames until its rounding begins anew: else the pictures, and so the kept hashes, would depend
+/// on how many frames it had made before it was first spoken to.
 fn align(emulator: &mut Emulator, board: Board) -> Result<(), Failure> {
     let mut frame = emulator.line.status()?.frame;
     while frame & (board.period() - 1) != 0 {

@@ -34,7 +34,8 @@ pub fn wait_beyond(seen: u32) -> u32 {
         if now != seen {
             return now;
         }
-        // With interrupts held back the tick cannot come between the look and the sleep; it wakes the processor all the same.
+        // With interrupts held back the tick cannot come between the look and the sleep; it wakes the processor all the
+        // same.
         cortex_m::interrupt::free(|_| {
             if VSYNCS.load(Ordering::Relaxed) == seen {
                 cortex_m::asm::wfi();

@@ -1,7 +1,7 @@
 //! The display controller on an LM3S6965: a Cortex-M3 with 64 KiB of RAM and an OLED of 128 x 64 gray pixels.
 //!
-//! Two maps of 128 x 64 galpixels would take all of the RAM. So there is one, with galpixels of a single word, and a window
-//! of rows that rolls down it.
+//! Two maps of 128 x 64 galpixels would take all of the RAM. So there is one, with galpixels of a single word, and a
+//! window of rows that rolls down it.
 
 #![no_std]
 #![no_main]
@@ -17,10 +17,8 @@ mod uart;
 
 use galpix_controller::board::Board;
 use galpix_controller::session::{Session, log_start};
-use galpix_core::frame::Scratch;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
 use galpix_core::rolling::Rolling;
+use galpix_core::{Galpixmap, Grid, Margin, Scratch, SetupError, Static};
 use galpix_link::panel::Panel;
 
 use memory::{Lent, SHARES};
@@ -29,7 +27,7 @@ use panel::{Band, Oled};
 /// The display as the host knows it.
 type Display = galpix_link::panel::Oled;
 /// How galpixels are stored.
-type Stored = galpix_core::galpixel::Static<Display>;
+type Stored = Static<Display>;
 
 /// What the board gives.
 struct Evaluation {
@@ -87,7 +85,7 @@ fn main() -> ! {
     uart::start();
     let oled = Oled::start();
     clock::start(peripherals.SYST);
-    log_start::<<Display as Panel>::Layout, _>(&Display::DESCRIPTION, Stored::new(), &SHARES);
+    log_start(&Display::DESCRIPTION, Stored::new(), &SHARES);
     let (_, stack) = galpix_registers::lm3s6965::stack();
     defmt::info!("memory: {=usize} bytes are left for the stack", stack);
 
@@ -103,8 +101,8 @@ fn rolling(
     window: &'static mut [u32],
     starts: &'static mut [u32],
     turns: &'static mut [u32],
-) -> Result<Rolling<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
-    let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
+) -> Result<Rolling<'static, Stored>, SetupError> {
+    let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Margin::NONE, starts)?;
     let rolls = Grid::window(&grid, memory::WINDOW_ROWS as u32, turns)?;
     Rolling::new(
         Galpixmap::new(grid, Stored::new(), map)?,

@@ -25,8 +25,8 @@ const PITCH: usize = WIDTH as usize / 2;
 /// Pin 7 of port C tells the panel commands from pixels.
 const DATA: u32 = 0x80;
 
-/// How the panel is set up. `A0` decides which nibble comes first and in which direction rows and columns run: what a board
-/// with the panel mounted otherwise has to change.
+/// How the panel is set up. `A0` decides which nibble comes first and in which direction rows and columns run: what a
+/// board with the panel mounted otherwise has to change.
 const SETUP: &[u8] = &[
     0xae, // off
     0x15, 0x00, 0x3f, // all columns, in pairs

@@ -2,21 +2,18 @@
 
 use core::hint::black_box;
 
-use galpix_core::frame::{Inpainting, Settings, Work};
-use galpix_core::galpixel::{Budget, Fixed, Profile, Static};
-use galpix_core::galpixmap::Galpixmap;
 use galpix_core::inpaint::map::{OfGalpixel, Uncovered};
 use galpix_core::inpaint::paint::{Moving, Tint};
 use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
 use galpix_core::inpaint::pyramid::{Cell, Pyramid};
 use galpix_core::inpaint::quads::lay_background;
 use galpix_core::inpaint::validity::Gamma;
-use galpix_core::layout::Layout;
+use galpix_core::{Format, Galpixmap, Inpainting, Profile, Settings, Static};
 
 use crate::bench::Bench;
 use crate::clock::Clock;
 use crate::pictures::Picture;
-use crate::report::{Row, print, print_hundredths};
+use crate::report::{Row, SKIPPING, print, print_hundredths};
 
 /// Memory of the pyramids, and of their states.
 pub struct Pyramids {
@@ -39,36 +36,41 @@ pub struct Counts {
     dense: u64,
 }
 
-/// One arrangement of push-pull, timed.
-fn filled<L: Layout, B: Budget<L>, V: OfGalpixel<L>>(
+/// Which cells of a pyramid push-pull completes.
+enum Arrangement {
+    /// Those that some hole needs.
+    Sparse,
+    /// All.
+    Dense,
+}
+
+/// Times one arrangement of push-pull.
+fn filled<F: Format, V: OfGalpixel>(
     clock: Clock,
-    map: &mut Galpixmap<'_, L, B>,
+    map: &mut Galpixmap<'_, F>,
     (cells, states): (&mut [Cell<V>], &mut [u32]),
     rule: &Rule,
-    work: Work,
+    arrangement: Arrangement,
 ) -> (u64, u32) {
     let [width, height] = [map.grid().width(), map.grid().height()];
     let mut pyramid = Pyramid::new(width, height, cells, states).expect("memory enough");
-    let mut picture = Uncovered::<L, B, V>::new(map, &[]);
+    let mut picture = Uncovered::<F, V>::new(map, &[]);
     let rule = black_box(rule);
-    match work {
-        Work::Skipping => clock.time(|| sparse(&mut picture, &mut pyramid, rule)),
-        Work::Constant => clock.time(|| dense(&mut picture, &mut pyramid, rule)),
+    match arrangement {
+        Arrangement::Sparse => clock.time(|| sparse(&mut picture, &mut pyramid, rule)),
+        Arrangement::Dense => clock.time(|| dense(&mut picture, &mut pyramid, rule)),
     }
 }
 
 impl Bench {
     /// Inpaints the second map and leaves it as it was: with quads, if it is the frame after the first one.
-    pub fn inpaint<L: Layout, P: Profile>(&mut self, frame: Option<u32>, words: usize, counts: &mut Counts)
-    where
-        Static<P>: Fixed<L>,
-    {
+    pub fn inpaint<P: Profile>(&mut self, frame: Option<u32>, words: usize, counts: &mut Counts) {
         let Self { clock, grid, maps: [front, back], scratch, swept: [kept, _], pyramids, .. } = self;
-        let (clock, budget) = (*clock, Static::<P>::new());
+        let (clock, format) = (*clock, Static::<P>::new());
         kept[..words].copy_from_slice(&back[..words]);
         {
-            let front = Galpixmap::<L, _>::over(*grid, budget, front).expect("memory enough");
-            let mut map = Galpixmap::<L, _>::over(*grid, budget, back).expect("memory enough");
+            let front = Galpixmap::over(*grid, format, front).expect("memory enough");
+            let mut map = Galpixmap::over(*grid, format, back).expect("memory enough");
             let bits = map.record().depth().bits.into();
             let (settings, rule) = (Settings::for_depth(bits), Inpainting::for_depth(bits, Gamma::Zero).rule);
             if let Some(frame) = frame {
@@ -77,12 +79,12 @@ impl Bench {
             }
             let Pyramids { tints, moving, states } = pyramids;
             // What is put into holes is asked by nobody: each arrangement finds what the one before has found.
-            let (ticks, _) = filled(clock, &mut map, (tints, states), &rule, Work::Skipping);
+            let (ticks, _) = filled(clock, &mut map, (tints, states), &rule, Arrangement::Sparse);
             counts.colours += ticks;
-            let (ticks, holes) = filled(clock, &mut map, (moving, states), &rule, Work::Skipping);
+            let (ticks, holes) = filled(clock, &mut map, (moving, states), &rule, Arrangement::Sparse);
             counts.moving += ticks;
             counts.holes += holes;
-            let (ticks, _) = filled(clock, &mut map, (moving, states), &rule, Work::Constant);
+            let (ticks, _) = filled(clock, &mut map, (moving, states), &rule, Arrangement::Dense);
             counts.dense += ticks;
             counts.frames += 1;
         }
@@ -90,15 +92,12 @@ impl Bench {
     }
 
     /// Inpaints a picture of which a twentieth is holes.
-    pub fn torn<L: Layout, P: Profile>(&mut self, layout: &'static str, words: usize)
-    where
-        Static<P>: Fixed<L>,
-    {
-        let mut map = Galpixmap::<L, _>::new(self.grid, Static::<P>::new(), self.maps[1]).expect("memory enough");
+    pub fn torn<P: Profile>(&mut self, layout: &'static str, words: usize) {
+        let mut map = Galpixmap::new(self.grid, Static::<P>::new(), self.maps[1]).expect("memory enough");
         Picture::Torn.paint(&mut map);
         let mut counts = Counts::default();
-        self.inpaint::<L, P>(None, words, &mut counts);
-        let (picture, mode) = (Picture::Torn.name(), Work::Skipping.name());
+        self.inpaint::<P>(None, words, &mut counts);
+        let (picture, mode) = (Picture::Torn.name(), SKIPPING);
         counts.print(Row { layout, picture, mode, stage: "", rung: "-" }, self.grid.cells());
     }
 }

@@ -1,40 +1,28 @@
-//! The layouts that are measured, each under the budget of a panel of its size.
+//! The formats that are measured, each under the budget of a panel of its size.
 
-use galpix_core::budget::{Bits, Demand};
-use galpix_core::galpixel::{Fixed, Profile, Static};
-use galpix_core::layout::{Flat565, Full, Shaded, Velocity565, VelocityGray4, VelocityGray8};
+use galpix_core::{Bits, Demand, Layout, Profile, Static};
 
 use crate::bench::Bench;
 
 /// A panel of 320 pixels a side, recognition in 8 frames, an update every 16.
 const DEMAND: Demand = Demand { extent: 320, recog: 8, prop: 16 };
-
-/// Velocities only.
-pub struct Velocity;
-
-impl Profile for Velocity {
-    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(DEMAND));
-}
-
-/// Accelerations too.
-pub struct Acceleration;
-
-impl Profile for Acceleration {
-    const BITS: Bits = Bits::must(Bits::derive(DEMAND));
-}
-
 /// The paper's: 1024 pixels a side.
-pub struct Paper;
+const PAPER: Demand = Demand { extent: 1024, ..DEMAND };
 
-impl Profile for Paper {
-    const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 1024, ..DEMAND }));
-}
+macro_rules! formats {
+    ($($profile:ident: $layout:ident, $bits:expr;)*) => {
+        $(
+            struct $profile;
 
-macro_rules! layouts {
-    ($($layout:ident: $profile:ident;)*) => {
+            impl Profile for $profile {
+                const LAYOUT: Layout = Layout::$layout;
+                const BITS: Bits = Bits::must($bits);
+            }
+        )*
+
         /// Words of a galpixel of the largest of them.
         pub const MOST_WORDS: usize = {
-            let (mut most, words) = (0, [$(<Static<$profile> as Fixed<$layout>>::RECORD.words()),*]);
+            let (mut most, words) = (0, [$(Static::<$profile>::RECORD.words()),*]);
             let mut index = 0;
             while index < words.len() {
                 most = if words[index] > most { words[index] } else { most };
@@ -45,16 +33,16 @@ macro_rules! layouts {
 
         /// Measures each of them.
         pub fn measure_all(bench: &mut Bench) {
-            $(bench.measure::<$layout, $profile>(stringify!($layout));)*
+            $(bench.measure::<$profile>(stringify!($profile));)*
         }
     };
 }
 
-layouts! {
-    VelocityGray4: Velocity;
-    VelocityGray8: Velocity;
-    Velocity565: Velocity;
-    Flat565: Acceleration;
-    Full: Paper;
-    Shaded: Acceleration;
+formats! {
+    VelocityGray4: VELOCITY_GRAY4, Bits::derive_without_acceleration(DEMAND);
+    VelocityGray8: VELOCITY_GRAY8, Bits::derive_without_acceleration(DEMAND);
+    Velocity565: VELOCITY565, Bits::derive_without_acceleration(DEMAND);
+    Flat565: FLAT565, Bits::derive(DEMAND);
+    Full: FULL, Bits::derive(PAPER);
+    Shaded: SHADED, Bits::derive(DEMAND);
 }

@@ -24,10 +24,9 @@ mod report;
 use core::hint::black_box;
 
 use cortex_m_rt::{ExceptionFrame, entry, exception};
-use galpix_core::frame::Scratch;
-use galpix_core::grid::{Grid, Wings};
 use galpix_core::inpaint::levels;
 use galpix_core::inpaint::pyramid::{Cell, state_words};
+use galpix_core::{Grid, Margin, Scratch};
 use semihosting::{eprintln, println, process};
 
 use bench::Bench;
@@ -69,8 +68,8 @@ fn main() -> ! {
     let mut lend = |words: usize| psram.lend(words, 0).expect("memory enough");
     let mut bench = Bench {
         clock,
-        grid: Grid::new(WIDTH, HEIGHT, Wings::NONE, ROWS).expect("a size that can be laid out"),
-        band: Grid::new(WIDTH, BAND, Wings::NONE, lend(BAND as usize)).expect("a size that can be laid out"),
+        grid: Grid::new(WIDTH, HEIGHT, Margin::NONE, ROWS).expect("a size that can be laid out"),
+        band: Grid::new(WIDTH, BAND, Margin::NONE, lend(BAND as usize)).expect("a size that can be laid out"),
         painted: lend(CELLS * MOST_WORDS),
         swept: [lend(CELLS * MOST_WORDS), lend(CELLS)],
         window_rows: lend(HEIGHT as usize),

@@ -3,9 +3,7 @@
 //! A slanted background, textured, and 12 discs and rectangles before it at depths of their own.
 
 use fixed::types::I32F32;
-use galpix_core::galpixel::{Budget, Class, Galpixel};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::layout::Layout;
+use galpix_core::{Class, Format, Galpixel, Galpixmap};
 
 /// A way to move.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -190,7 +188,7 @@ impl Picture {
     }
 
     /// Writes the picture into a map.
-    pub fn paint<L: Layout, B: Budget<L>>(self, map: &mut Galpixmap<'_, L, B>) {
+    pub fn paint<F: Format>(self, map: &mut Galpixmap<'_, F>) {
         let (width, height) = (map.grid().width() as i32, map.grid().height() as i32);
         self.each(width, height, |x, y, galpixel| {
             map.store(x, y, &galpixel);

@@ -4,6 +4,11 @@ use semihosting::println;
 
 use crate::clock::hundredths;
 
+/// The mode of frames whose work depends on the picture.
+pub const SKIPPING: &str = "skipping";
+/// The mode of frames whose work does not.
+pub const CONSTANT_TIME: &str = "constant";
+
 /// What was measured.
 #[derive(Clone, Copy)]
 pub struct Row {
@@ -11,7 +16,7 @@ pub struct Row {
     pub layout: &'static str,
     /// The picture.
     pub picture: &'static str,
-    /// The mode of work.
+    /// The mode of work: [`SKIPPING`], [`CONSTANT_TIME`], or none.
     pub mode: &'static str,
     /// The stage.
     pub stage: &'static str,

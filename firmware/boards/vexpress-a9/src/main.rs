@@ -1,5 +1,5 @@
-//! The display controller on a Versatile Express A9: a PL111 scans 320 x 240 colour pixels out of memory, and a frame is
-//! made for each of its vsyncs.
+//! The display controller on a Versatile Express A9: a PL111 scans 320 x 240 colour pixels out of memory, and a frame
+//! is made for each of its vsyncs.
 //!
 //! The display controller is one that microcontrollers have built in; only the processor is a stand-in.
 
@@ -16,9 +16,7 @@ mod uart;
 
 use galpix_controller::board::Board;
 use galpix_controller::session::{Session, log_start};
-use galpix_core::frame::{Controller, Scratch};
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::grid::{Grid, Wings};
+use galpix_core::{Controller, Galpixmap, Grid, Margin, Scratch, SetupError, Static};
 use galpix_link::panel::Panel;
 use galpix_registers::vexpress::{TIMER_CONTROL, TIMER_COUNTER, TIMER_LOAD};
 
@@ -28,7 +26,7 @@ use panel::{Lcd, Picture};
 /// The display as the host knows it.
 type Display = galpix_link::panel::Lcd;
 /// How galpixels are stored.
-type Stored = galpix_core::galpixel::Static<Display>;
+type Stored = Static<Display>;
 
 /// The private timer's clock, in Hz.
 const CLOCK: u32 = 100_000_000;
@@ -79,7 +77,7 @@ fn main() -> ! {
     uart::start();
     let lcd = Lcd::start(lent.pictures);
     interrupts::start();
-    log_start::<<Display as Panel>::Layout, _>(&Display::DESCRIPTION, Stored::new(), &SHARES);
+    log_start(&Display::DESCRIPTION, Stored::new(), &SHARES);
 
     let board = Express { lcd, vsyncs: 0 };
     let Ok(controller) = controller(lent.maps, lent.scratch, lent.starts) else { end::fail() };
@@ -92,7 +90,7 @@ fn controller(
     [front, back]: [&'static mut [u32]; 2],
     scratch: Scratch<'static>,
     starts: &'static mut [u32],
-) -> Result<Controller<'static, <Display as Panel>::Layout, Stored>, galpix_core::error::SetupError> {
-    let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Wings::NONE, starts)?;
+) -> Result<Controller<'static, Stored>, SetupError> {
+    let grid = Grid::new(u32::from(Display::WIDTH), u32::from(Display::HEIGHT), Margin::NONE, starts)?;
     Controller::new(Galpixmap::new(grid, Stored::new(), front)?, Galpixmap::new(grid, Stored::new(), back)?, scratch)
 }

@@ -1,6 +1,6 @@
 //! The memory of the controller, by name.
 
-use galpix_core::frame::Scratch;
+use galpix_core::Scratch;
 use galpix_link::panel::Panel;
 use static_cell::ConstStaticCell;
 

@@ -3,7 +3,7 @@
 #[cfg(feature = "push-pull")]
 mod pyramid {
     use galpix_controller::inpainted::Inpainted;
-    use galpix_core::error::SetupError;
+    use galpix_core::SetupError;
     use galpix_core::inpaint::paint::Moving;
     use galpix_core::inpaint::pyramid::{Cell, Pyramid};
     use galpix_link::panel::Panel;
@@ -33,7 +33,7 @@ mod pyramid {
 
 #[cfg(not(feature = "push-pull"))]
 mod pyramid {
-    use galpix_core::error::SetupError;
+    use galpix_core::SetupError;
 
     /// There is none.
     pub const BYTES: usize = 0;

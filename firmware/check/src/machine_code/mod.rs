@@ -1,8 +1,8 @@
 //! "Additions and shifts only" for a linked program: what its functions reach is read, instruction by instruction.
 //!
 //! The program must be linked with `--emit-relocs`, see [`image`]. Setting up a map may multiply; a frame must not. So
-//! what is read are the functions named, and everything that they reach. Push-pull takes means by weights: those functions may
-//! multiply, by instructions and not by helpers, and do nothing else.
+//! what is read are the functions named, and everything that they reach. Push-pull takes means by weights: those
+//! functions may multiply, by instructions and not by helpers, and do nothing else.
 
 mod image;
 mod instructions;

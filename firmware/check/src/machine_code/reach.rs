@@ -54,7 +54,8 @@ fn helper(name: &str) -> Option<Helper> {
     }
 }
 
-/// Reads everything that the function at `entry` reaches. A deed that is `allowed` is no fault; a helper that does it is.
+/// Reads everything that the function at `entry` reaches. A deed that is `allowed` is no fault; a helper that does it
+/// is.
 pub fn judge(image: &Image, entry: usize, allowed: Option<Deed>) -> Result<Verdict, String> {
     let mut verdict = Verdict::default();
     let start = Mention::Function(entry);

@@ -1,8 +1,7 @@
 //! Whole pictures.
 
 use fixed::types::I32F32;
-use galpix_core::galpixel::{Class, Galpixel};
-use galpix_core::grid::Wings;
+use galpix_core::{Class, Galpixel, Layout, Margin};
 
 use super::super::picture::Picture;
 use super::super::setting::Setting;
@@ -17,9 +16,9 @@ fn picture(
     Picture {
         name: name.into(),
         size,
-        wings: Wings::NONE,
+        margin: Margin::NONE,
         galpixel: Box::new(galpixel),
-        shaded: false,
+        layout: Layout::FULL,
         frames,
         counter: 0,
         same_as: None,
@@ -84,7 +83,7 @@ pub fn every_field(setting: &Setting) -> Vec<Picture> {
             tag: u32::MAX,
         }
     };
-    vec![Picture { shaded: true, ..picture("3^8 combinations", [81, 81], setting.demand.prop, galpixel) }]
+    vec![Picture { layout: Layout::SHADED, ..picture("3^8 combinations", [81, 81], setting.demand.prop, galpixel) }]
 }
 
 /// A name, which cells go one way, and how fast they go.
@@ -168,18 +167,18 @@ pub fn sizes(setting: &Setting) -> Vec<Picture> {
 
 /// Display cells and wings alike move.
 pub fn wings(setting: &Setting) -> Vec<Picture> {
-    let of = |wings: Wings| {
-        let Wings { left, right, top, bottom } = wings;
+    let of = |margin: Margin| {
+        let Margin { left, right, top, bottom } = margin;
         let name = format!("{left}, {right}, {top}, {bottom} around 9 x 7");
-        Picture { wings, ..picture(name, [9, 7], setting.demand.prop, mixed) }
+        Picture { margin, ..picture(name, [9, 7], setting.demand.prop, mixed) }
     };
     [
-        Wings::NONE,
-        Wings::all(1),
-        Wings { left: 1, right: 0, top: 0, bottom: 0 },
-        Wings { left: 0, right: 64, top: 3, bottom: 1 },
-        Wings::all(8),
-        Wings::all(40),
+        Margin::NONE,
+        Margin::all(1),
+        Margin { left: 1, right: 0, top: 0, bottom: 0 },
+        Margin { left: 0, right: 64, top: 3, bottom: 1 },
+        Margin::all(8),
+        Margin::all(40),
     ]
     .map(of)
     .into()

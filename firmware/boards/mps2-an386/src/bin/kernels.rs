@@ -1,5 +1,5 @@
-//! The engine's kernels on all states of a tiny budget, on this processor: ends with 0 if all are right and their hash is the
-//! one that every processor has.
+//! The engine's kernels on all states of a tiny budget, on this processor: ends with 0 if all are right and their hash
+//! is the one that every processor has.
 
 #![no_std]
 #![no_main]

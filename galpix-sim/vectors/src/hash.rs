@@ -1,0 +1,43 @@
+//! What is kept of the vectors: a hash of every case and of every frame.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::case::{Case, Content};
+
+/// The SHA-256 of some bytes, in hexadecimal digits.
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().fold(String::new(), |mut digits, byte| {
+        let _ = write!(digits, "{byte:02x}");
+        digits
+    })
+}
+
+/// The hash of a frame: of the words of its map, plane by plane, the least significant byte of each first.
+pub fn frame(map: &[u32]) -> String {
+    let bytes: Vec<u8> = map.iter().flat_map(|word| word.to_le_bytes()).collect();
+    sha256(&bytes)
+}
+
+/// One JSON document on a line.
+pub fn json(value: &impl Serialize) -> String {
+    // Keys are strings and numbers are integers: there is nothing that JSON cannot say.
+    serde_json::to_string(value).unwrap_or_default() + "\n"
+}
+
+/// The hashes of all cases and frames as the project keeps them, a line each.
+#[must_use]
+pub fn hashes(cases: &[Case]) -> String {
+    let mut lines = String::new();
+    for case in cases {
+        let _ = writeln!(lines, "{} {}", sha256(json(case).as_bytes()), case.name);
+        if let Content::Frame(frames) = &case.content {
+            for (frame, n) in frames.frames.iter().zip(1..) {
+                let _ = writeln!(lines, "{} {} frame {n}", frame.sha256, case.name);
+            }
+        }
+    }
+    lines
+}

@@ -1,0 +1,33 @@
+//! Golden vectors: inputs and outputs of every kernel and of whole frames, for other implementations and for test
+//! benches in logic. The files are described in `docs/vectors.md`.
+//!
+//! ```text
+//! which cases there are        what is in them   the core      what is written down   JSON, hex, hashes
+//! choice, inpaint, layers,  ─▶ maps           ─▶ run,       ─▶ case                ─▶ write
+//! objects, disocclusion                          layered
+//! ```
+//!
+//! [`arrivals`] has the rules of propagation and resolution once more, slow and short, to compare the core's passes
+//! with.
+
+#![forbid(unsafe_code)]
+
+pub mod arrivals;
+mod case;
+mod choice;
+mod disocclusion;
+mod field;
+mod hash;
+mod inpaint;
+mod layered;
+mod layers;
+mod maps;
+mod objects;
+mod run;
+mod write;
+
+pub use case::{Case, Manifest, schema};
+pub use choice::cases;
+pub use hash::hashes;
+pub use run::RunError;
+pub use write::{FORMAT, write};

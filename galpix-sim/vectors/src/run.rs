@@ -1,0 +1,314 @@
+//! The core, run over a case's inputs.
+
+use galpix_core::inpaint::levels;
+use galpix_core::inpaint::map::Filling;
+use galpix_core::inpaint::paint::{Moving, Tint};
+use galpix_core::inpaint::push_pull::Rule;
+use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
+use galpix_core::record::{Component, Scale};
+use galpix_core::stages::{self, clamp_velocity, snap, step_position, step_velocity};
+use galpix_core::{
+    Bits, BudgetError, Controller, Dynamic, Format, Galpixmap, Grid, Inpainting, Layout, Margin, Record, Rounding,
+    Scratch, Settings, SetupError, Tally,
+};
+
+use crate::arrivals::{Arrival, arrivals, settle};
+use crate::case::{
+    ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Making, Resolve, Setting, Step,
+};
+use crate::hash;
+use crate::maps::{Picture, Random, size, words};
+
+/// Why a case could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Its layout cannot be stored under its budget.
+    #[error("{0}")]
+    Budget(#[from] BudgetError),
+    /// Its map cannot be laid out.
+    #[error("{0}")]
+    Setup(#[from] SetupError),
+}
+
+/// What is run over a picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// What the map shows.
+    pub picture: Picture,
+    /// Its size.
+    pub grid: GridSize,
+    /// Rounding, fill mode, reach, edge threshold.
+    pub settings: Settings,
+    /// Whether frames are made by instructions that do not depend on the picture.
+    pub constant_time: bool,
+    /// The frame counter of the first map.
+    pub frame: u32,
+    /// Frames that are made of it.
+    pub frames: u32,
+}
+
+impl Plan {
+    /// Describes how frames are made. Fill modes that know no surfaces look at no edge map.
+    pub fn making(&self) -> Making {
+        let Settings { rounding, fill_mode, edge_threshold, reach } = self.settings;
+        Making {
+            rounding: rounding.name().to_owned(),
+            rung: fill_mode.name().to_owned(),
+            reach,
+            threshold: if fill_mode.uses_edges() { edge_threshold } else { 0 },
+            frame: self.frame,
+        }
+    }
+}
+
+/// How a frame is painted.
+#[derive(Clone, Copy, Debug)]
+pub struct Paint {
+    /// Validity, and what foreground is.
+    pub rule: Rule,
+    /// The depth of the background first.
+    pub background: bool,
+    /// Motion and not colour alone.
+    pub motion: bool,
+    /// Parts of the map that a random mask covers, of 4; 0 for no mask.
+    pub masked_quarters: u32,
+    /// Whether the frame has an edge map.
+    pub edges: bool,
+}
+
+/// A layout under a budget, and what can be run with it.
+#[derive(Clone, Copy)]
+pub struct Model {
+    /// Its part of a case's name.
+    pub name: &'static str,
+    /// The form of its galpixels.
+    pub format: Dynamic,
+    bits: Bits,
+}
+
+impl Model {
+    /// Plans the form of a layout under a budget.
+    pub fn new(name: &'static str, layout: Layout, bits: Bits) -> Result<Self, RunError> {
+        Ok(Self { name, format: Dynamic::new(bits, layout)?, bits })
+    }
+
+    /// Returns where its fields are.
+    pub fn record(&self) -> &Record {
+        self.format.record()
+    }
+
+    /// Returns the bits of its depth field.
+    pub fn depth_bits(&self) -> u32 {
+        self.record().depth().bits.into()
+    }
+
+    /// Returns what all cases over a map have.
+    pub fn setting(&self, grid: GridSize) -> Setting {
+        Setting::of(self.bits, self.record(), grid)
+    }
+
+    /// Runs resolve, edge and fill of one frame.
+    pub fn stages(&self, plan: &Plan, random: &mut Random) -> Result<[Content; 3], RunError> {
+        let mut starts = GridMemory::new(plan.grid);
+        let grid = starts.grid()?;
+        let front_words = words(plan.picture, self.record(), &plan.grid, random);
+        let (mut front, mut back) = (front_words.clone(), vec![0; front_words.len()]);
+        let front = Galpixmap::over(grid, self.format, &mut front)?;
+        let mut back = Galpixmap::new(grid, self.format, &mut back)?;
+        let Settings { rounding, fill_mode, edge_threshold, reach } = plan.settings;
+
+        let mut edges = vec![0; stages::words(&grid)];
+        let marked = stages::mark(&front, edge_threshold, &mut edges);
+        let mut arrived = arrivals(&front, rounding, plan.frame);
+        for end in (1..arrived.len()).rev() {
+            arrived.swap(end, random.below(end as u32 + 1) as usize);
+        }
+        let mut winners = vec![0; grid.cells() as usize];
+        let settled = settle(arrived.iter().copied(), &mut back, &mut winners);
+        let setting = self.setting(plan.grid);
+        let arrival_words = |&Arrival { source, cell, words, .. }: &Arrival| {
+            let words = words[..self.record().words()].to_vec();
+            ArrivalWords { source, cell, words }
+        };
+        let resolve = Resolve {
+            setting: setting.clone(),
+            arrivals: arrived.iter().map(arrival_words).collect(),
+            map: planes(&back),
+            winners: winners.clone(),
+            // Fields saturate on the way, not when they settle.
+            counts: Tally { saturated: 0, ..settled }.into(),
+        };
+        let edge = Edge {
+            setting: setting.clone(),
+            threshold: edge_threshold,
+            front: front_words.clone(),
+            edges: edges.clone(),
+            counts: Tally { edges: marked, ..Tally::default() }.into(),
+        };
+        let (resolved, before) = (planes(&back), winners.clone());
+        let mut tally = Tally::default();
+        stages::fill(&front, &mut back, &mut winners, &edges, fill_mode, reach, &mut tally);
+        let fill = Fill {
+            setting,
+            rung: fill_mode.name().to_owned(),
+            reach,
+            edges,
+            front: front_words,
+            resolved,
+            winners: before,
+            map: planes(&back),
+            winners_after: winners,
+            counts: tally.into(),
+        };
+        Ok([Content::Resolve(resolve), Content::Edge(edge), Content::Fill(fill)])
+    }
+
+    /// Makes whole frames.
+    pub fn frames(&self, plan: &Plan, random: &mut Random) -> Result<Content, RunError> {
+        let mut starts = GridMemory::new(plan.grid);
+        let grid = starts.grid()?;
+        let front = words(plan.picture, self.record(), &plan.grid, random);
+        let mut memory = Memory::new(&front, &grid, true);
+        let mut controller = memory.controller(grid, self.format)?;
+        controller.set_frame(plan.frame);
+        let frames = (0..plan.frames)
+            .map(|_| {
+                let counts = controller.step(&plan.settings).into();
+                let map = planes(controller.front());
+                FrameAfter { sha256: hash::frame(&map), counts, map }
+            })
+            .collect();
+        Ok(Content::Frame(Frames { setting: self.setting(plan.grid), making: plan.making(), front, frames }))
+    }
+
+    /// Makes one frame, and paints what it uncovered.
+    pub fn painted(&self, plan: &Plan, paint: &Paint, random: &mut Random) -> Result<Content, RunError> {
+        let mut starts = GridMemory::new(plan.grid);
+        let grid = starts.grid()?;
+        let front = words(plan.picture, self.record(), &plan.grid, random);
+        let mut memory = Memory::new(&front, &grid, paint.edges);
+        // A mask ends where it likes: the cells beyond are not in it.
+        let mask: Vec<u32> = match paint.masked_quarters {
+            0 => Vec::new(),
+            quarters => {
+                let length = (stages::words(&grid) * quarters as usize).div_ceil(4);
+                (0..length).map(|_| random.next() as u32 | random.next() as u32).collect()
+            }
+        };
+        let mut controller = memory.controller(grid, self.format)?;
+        controller.set_frame(plan.frame);
+        if plan.constant_time {
+            controller.step_constant_time(&plan.settings);
+        } else {
+            controller.step(&plan.settings);
+        }
+        let after = planes(controller.front());
+        let edges = controller.edges().to_vec();
+        let inpainting = Inpainting { rule: paint.rule, quads: paint.background, mask: &mask };
+        if paint.motion {
+            inpaint::<Moving>(&mut controller, &plan.settings, &inpainting)?;
+        } else {
+            inpaint::<Tint>(&mut controller, &plan.settings, &inpainting)?;
+        }
+        let map = planes(controller.front());
+        let Settings { rounding, edge_threshold, reach, .. } = plan.settings;
+        Ok(Content::Inpaint(Inpaint {
+            setting: self.setting(plan.grid),
+            rounding: rounding.name().to_owned(),
+            reach,
+            threshold: edge_threshold,
+            frame: plan.frame,
+            gamma: paint.rule.gamma.name().to_owned(),
+            inpaint_threshold: paint.rule.threshold,
+            motion: paint.motion,
+            background: paint.background,
+            mask,
+            front,
+            edges,
+            after,
+            map,
+        }))
+    }
+}
+
+fn inpaint<V: Filling>(
+    controller: &mut Controller<'_, Dynamic>,
+    settings: &Settings,
+    inpainting: &Inpainting<'_>,
+) -> Result<(), SetupError> {
+    let (columns, rows) = (controller.front().grid().width(), controller.front().grid().height());
+    let mut cells = vec![Cell::default(); levels::cells(columns, rows)];
+    let mut states = vec![0; state_words(cells.len())];
+    controller.inpaint(settings, inpainting, &mut Pyramid::<V>::new(columns, rows, &mut cells, &mut states)?);
+    Ok(())
+}
+
+/// Runs the step kernel over some states of a component.
+pub fn step(component: Component, rounding: Rounding, steps: Vec<(u32, i32, i32, i32)>) -> Content {
+    let scale = Scale::new(component, component.position_frac);
+    let result = |&(frame, r, v, a): &(u32, i32, i32, i32)| {
+        let position = step_position(&scale, rounding.threshold(frame, scale.down), r, v, a);
+        let cells = snap(&scale, position);
+        let raised = step_velocity(&scale, v, a);
+        let velocity = if component.has_acceleration() { clamp_velocity(&scale, raised) } else { v };
+        (position, cells, position - (cells << scale.position_frac), velocity, u32::from(velocity != raised))
+    };
+    let results = steps.iter().map(result).collect();
+    Content::Step(Step { component: component.into(), rounding: rounding.name().to_owned(), steps, results })
+}
+
+/// Memory for the grid of a map.
+pub struct GridMemory {
+    starts: Vec<u32>,
+    grid: GridSize,
+}
+
+impl GridMemory {
+    /// Makes memory for a map of this size.
+    pub fn new(grid: GridSize) -> Self {
+        Self { starts: vec![0; size(&grid).1 as usize], grid }
+    }
+
+    /// Lays the grid over it.
+    pub fn grid(&mut self) -> Result<Grid<'_>, SetupError> {
+        let GridSize { width, height, left, right, top, bottom } = self.grid;
+        Grid::new(width, height, Margin { left, right, top, bottom }, &mut self.starts)
+    }
+}
+
+/// Memory for the maps of a controller and what a frame needs beside them.
+pub struct Memory {
+    maps: [Vec<u32>; 2],
+    winners: Vec<u32>,
+    edges: Vec<u32>,
+}
+
+impl Memory {
+    /// Makes memory that holds this map, with or without an edge map.
+    pub fn new(front: &[u32], grid: &Grid<'_>, edges: bool) -> Self {
+        Self {
+            maps: [front.to_vec(), vec![0; front.len()]],
+            winners: vec![0; grid.cells() as usize],
+            edges: vec![0; if edges { stages::words(grid) } else { 0 }],
+        }
+    }
+
+    /// Lays a controller over it.
+    pub fn controller<'m>(
+        &'m mut self,
+        grid: Grid<'m>,
+        format: Dynamic,
+    ) -> Result<Controller<'m, Dynamic>, SetupError> {
+        let Self { maps: [front, back], winners, edges } = self;
+        Controller::new(
+            Galpixmap::over(grid, format, front)?,
+            Galpixmap::new(grid, format, back)?,
+            Scratch { winners, edges },
+        )
+    }
+}
+
+/// Returns all planes of a map, one after the other.
+pub fn planes(map: &Galpixmap<'_, Dynamic>) -> Vec<u32> {
+    (0..).map_while(|word| map.plane(word)).flatten().copied().collect()
+}

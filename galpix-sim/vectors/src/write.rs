@@ -1,0 +1,106 @@
+//! Cases as files: JSON, `$readmemh`, and their hashes.
+
+use std::fmt::Write as _;
+
+use crate::case::{Case, Content, Entry, FileHash, Manifest, schema};
+use crate::hash::{hashes, json, sha256};
+
+/// The format's name and version: another number where an old reader would go wrong.
+pub const FORMAT: &str = "galpix-vectors-1";
+
+/// Gives all cases, the schema and last the manifest to `save`, each with its path in the folder of vectors and its
+/// text.
+///
+/// *Errors:* the first one of `save`.
+pub fn write<E>(seed: u64, cases: &[Case], mut save: impl FnMut(&str, &str) -> Result<(), E>) -> Result<Manifest, E> {
+    let mut put = |path: &str, text: &str| {
+        save(path, text)?;
+        Ok(FileHash { path: path.to_owned(), sha256: sha256(text.as_bytes()) })
+    };
+    put("schema.json", &json(&schema()))?;
+    put("hashes.txt", &hashes(cases))?;
+    let mut entries = Vec::with_capacity(cases.len());
+    for case in cases {
+        let mut files = vec![put(&format!("{}/case.json", case.name), &json(case))?];
+        for (name, words) in arrays(&case.content) {
+            files.push(put(&format!("{}/{name}.hex", case.name), &readmemh(&case.name, &name, &words))?);
+        }
+        let frames = match &case.content {
+            Content::Frame(frames) => frames.frames.iter().map(|frame| frame.sha256.clone()).collect(),
+            _ => Vec::new(),
+        };
+        entries.push(Entry { name: case.name.clone(), kind: case.content.kind().to_owned(), files, frames });
+    }
+    let manifest = Manifest { format: FORMAT.to_owned(), seed, cases: entries };
+    put("manifest.json", &json(&manifest))?;
+    Ok(manifest)
+}
+
+/// Words as `$readmemh` reads them.
+fn readmemh(case: &str, name: &str, words: &[u32]) -> String {
+    let mut text = format!("// {case}: {name}, {} words\n", words.len());
+    for word in words {
+        let _ = writeln!(text, "{word:08x}");
+    }
+    text
+}
+
+/// The arrays of a case by their names.
+fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
+    let named = |list: Vec<(&str, Vec<u32>)>| list.into_iter().map(|(name, words)| (name.to_owned(), words)).collect();
+    match content {
+        Content::Step(step) => {
+            let (inputs, results) = (&step.steps, &step.results);
+            named(vec![
+                ("frame", inputs.iter().map(|&(frame, ..)| frame).collect()),
+                ("r", inputs.iter().map(|&(_, r, ..)| r as u32).collect()),
+                ("v", inputs.iter().map(|&(_, _, v, _)| v as u32).collect()),
+                ("a", inputs.iter().map(|&(.., a)| a as u32).collect()),
+                ("position", results.iter().map(|&(position, ..)| position as u32).collect()),
+                ("cells", results.iter().map(|&(_, cells, ..)| cells as u32).collect()),
+                ("offset", results.iter().map(|&(_, _, offset, ..)| offset as u32).collect()),
+                ("velocity", results.iter().map(|&(_, _, _, velocity, _)| velocity as u32).collect()),
+                ("saturated", results.iter().map(|&(.., saturated)| saturated).collect()),
+            ])
+        }
+        Content::Resolve(resolve) => {
+            let arrivals = &resolve.arrivals;
+            named(vec![
+                ("source", arrivals.iter().map(|arrival| arrival.source).collect()),
+                ("cell", arrivals.iter().map(|arrival| arrival.cell.unwrap_or(u32::MAX)).collect()),
+                ("arrivals", arrivals.iter().flat_map(|arrival| arrival.words.iter().copied()).collect()),
+                ("map", resolve.map.clone()),
+                ("winners", resolve.winners.clone()),
+            ])
+        }
+        Content::Edge(edge) => named(vec![("front", edge.front.clone()), ("edges", edge.edges.clone())]),
+        Content::Fill(fill) => named(vec![
+            ("front", fill.front.clone()),
+            ("resolved", fill.resolved.clone()),
+            ("winners", fill.winners.clone()),
+            ("edges", fill.edges.clone()),
+            ("map", fill.map.clone()),
+            ("winners_after", fill.winners_after.clone()),
+        ]),
+        Content::Inpaint(inpaint) => named(vec![
+            ("front", inpaint.front.clone()),
+            ("edges", inpaint.edges.clone()),
+            ("mask", inpaint.mask.clone()),
+            ("after", inpaint.after.clone()),
+            ("map", inpaint.map.clone()),
+        ]),
+        Content::Layers(layers) => layers.arrays(),
+        Content::Objects(objects) => objects.arrays(),
+        Content::Disocclusion(map) => named(vec![
+            ("front", map.front.clone()),
+            ("marked", map.marked.clone()),
+            ("spread", map.spread.clone()),
+            ("mask", map.mask.clone()),
+        ]),
+        Content::Frame(frames) => {
+            let first = ("front".to_owned(), frames.front.clone());
+            let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));
+            std::iter::once(first).chain(after).collect()
+        }
+    }
+}

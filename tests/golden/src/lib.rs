@@ -1,3 +1,0 @@
-//! The simulator's golden vectors, compiled without the simulator.
-
-pub mod vectors;

@@ -1,0 +1,33 @@
+//! What holds across the crates, in one program: each module a subject. The tests of the machine code begin with `codegen_`.
+
+mod bounds;
+mod captures;
+mod codegen;
+mod ddoc;
+mod disocclusion;
+mod documents;
+mod exhaustive;
+mod figures;
+mod fills;
+mod graft;
+mod hidden;
+mod hud;
+mod identity;
+mod inpaint;
+mod layers;
+mod link;
+mod memory;
+mod objects;
+mod order;
+mod overlay;
+mod picture;
+mod plan;
+mod property;
+mod rigid;
+mod rolling;
+mod scan_out;
+mod send;
+mod single;
+mod stability;
+mod tradeoff;
+mod work;

@@ -1,0 +1,19 @@
+/// 81 bits in 3 words a galpixel.
+pub enum PlannedPan {}
+impl Layout for PlannedPan {
+    type Colour = Rgb888;
+    const LANES: Layout = Layout { velocity: true, acceleration: true, ..Layout::STILL };
+}
+pub struct PlannedPanBudget;
+impl Profile for PlannedPanBudget {
+    const BITS: Bits = Bits {
+        x: Component { position_frac: 5, velocity_int: 4, velocity_frac: 9, acceleration_int: 1, acceleration_frac: 9 },
+        y: Component { position_frac: 5, velocity_int: 3, velocity_frac: 9, acceleration_int: 1, acceleration_frac: 9 },
+        z: Component { position_frac: 5, velocity_int: 8, velocity_frac: 9, acceleration_int: 6, acceleration_frac: 9 },
+        depth_int: 8, luminosity_int: 6, luminosity_frac: 5,
+    };
+}
+pub const SETTINGS: Settings = Settings {
+    rounding: Rounding::Searched, rung: FillMode::Hold, edge_threshold: 1, reach: 1,
+    ..Settings::for_depth(0)
+};
