@@ -39,9 +39,9 @@
 //! # Ok::<(), galpix_core::error::SetupError>(())
 //! ```
 
-pub mod direction;
-pub mod edges;
-pub mod splat;
+mod direction;
+mod edges;
+mod splat;
 
 #[cfg(test)]
 mod tests;
@@ -53,7 +53,8 @@ use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 use direction::along;
-use splat::Splat;
+
+pub use splat::Splat;
 
 /// Fraction bits of places and lengths.
 pub const FRACTION_BITS: u32 = 8;

@@ -7,8 +7,7 @@
 //!
 //! 1. [`mark()`] looks at each pair of neighbours: where one gets away from the other, the nearer one leaves, and uncovers what is
 //!    behind itself and behind the cells that it comes by (Algorithm 1)
-//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2), [`spread_by_doubling`] the same in steps of 1, 2, 4, ... cells for machines that
-//!    work on all cells at once
+//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2)
 //!
 //! [`map`] does 1 and 2 in one pass down and one pass up; [`cover`] needs a single line of memory for the same, and keeps one bit a cell.
 //!
@@ -19,7 +18,6 @@
 //! **Memory:** four bytes a cell. **Cost:** some vector operations a cell and some hundred operations a pair that is looked at; additions and
 //! shifts.
 
-mod doubling;
 mod extents;
 mod line;
 mod mark;
@@ -27,7 +25,6 @@ mod pair;
 mod reach;
 mod spread;
 
-pub use doubling::spread_by_doubling;
 pub use extents::Extents;
 pub use line::cover;
 pub(crate) use line::make_cover;
