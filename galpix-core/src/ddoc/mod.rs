@@ -18,9 +18,8 @@
 //! place that is moved; nothing overflows, and nothing panics.
 //!
 //! ```
-//! use galpix_core::ddoc::splat::Splat;
-//! use galpix_core::ddoc::{DistortionMap, ONE, Settings};
-//! use galpix_core::grid::{Grid, Margin};
+//! use galpix_core::ddoc::{DistortionMap, ONE, Settings, Splat};
+//! use galpix_core::{Grid, Margin};
 //!
 //! // The left half of a picture is near, the right half far.
 //! let mut rows = [0; 16];
@@ -36,7 +35,7 @@
 //! // is seen; what is near stays.
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 9000), [3 * ONE, 0]);
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 1000), [0, 0]);
-//! # Ok::<(), galpix_core::error::SetupError>(())
+//! # Ok::<(), galpix_core::SetupError>(())
 //! ```
 
 mod direction;
