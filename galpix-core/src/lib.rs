@@ -4,52 +4,54 @@
 //! *galpixmap* goes on moving by itself: it carries position, velocity and acceleration (a *galpixel*, J. P. Costella,
 //! "Motion Extrapolation at the Pixel Level", 1993), and each frame moves all of them with additions and shifts only.
 //!
-//! One frame, stage by stage and file by file:
+//! One frame has these stages; [`stages`] has each of them alone:
 //!
-//! 1. [`propagate`]: `r += v + a/2`, `v += a`, the best-fitting cell
-//! 2. [`resolve`]: who gets a cell that several want; [`sweep`] does both stages in one pass
-//! 3. [`edge`]: which cells are on the edge of a surface
-//! 4. [`fill`]: what is put where nothing arrived
-//! 5. [`inpaint`]: what is put there instead where a controller asks for more, from all that is known around it
+//! 1. **propagate**: `r += v + a/2`, `v += a`, and the best-fitting cell
+//! 2. **resolve**: the nearest of those that want a cell gets it
+//! 3. **edge**: marks the cells on the edge of a surface
+//! 4. **fill**: puts something where nothing arrived, by a [`FillMode`]
+//! 5. [`inpaint`], where a controller asks for more: fills what was uncovered from all that is known around it
 //! 6. [`scan_out`]: rows of colour for a display, under an [`overlay`] where one is pinned
 //!
-//! [`layers`] lets several maps move apart and shows them together. [`frame`] is their order; in the mode of [`constant`] work the instructions of 2 and 4 do not depend on the picture. Before it: [`budget`] gives every width, [`layout`] says which lanes there are, [`record`]
-//! packs them into words, [`grid`] and [`galpixmap`] lay them over memory that the caller lends, and [`galpixel`] is one of
-//! them with units.
-//!
-//! [`disocclusion`] says, before an update is shown, which hidden samples it needs.
+//! A [`Controller`] makes frames from two maps that take turns, [`rolling::Rolling`] from one and a window of rows,
+//! [`layers::Layers`] from several maps that are shown together. Each has a constant-time twin of its step where the
+//! instructions must not depend on the picture. A map is a [`Galpixmap`] over a [`Grid`] in a caller-provided buffer; what
+//! its galpixels carry is a [`Layout`], how wide their fields are is [`Bits`], and both together are a [`Format`], fixed at
+//! compile time ([`Static`]) or chosen at run time ([`Dynamic`]) with the same bits. [`objects`] are replaced one by one,
+//! [`disocclusion`] says which hidden samples an update needs, [`ddoc`] renders an image that holds some of them.
 //!
 //! Nothing here allocates, floats, panics or wraps once a map is set up: errors at the border, counts inside.
 //!
 //! ```
-//! use fixed::types::I32F32;
-//! use galpix_core::budget::{Bits, Demand};
-//! use galpix_core::frame::{Controller, Scratch, Settings};
-//! use galpix_core::galpixel::{Galpixel, Profile, Static};
-//! use galpix_core::galpixmap::Galpixmap;
-//! use galpix_core::grid::{Grid, Margin};
-//! use galpix_core::layout::Velocity565;
+//! use galpix_core::fixed::types::I32F32;
+//! use galpix_core::{
+//!     Bits, Controller, Demand, Galpixel, Galpixmap, Grid, Layout, Margin, Profile, Scratch, Settings, SetupError, Static,
+//! };
 //!
 //! /// A panel of 64 pixels, recognition in 8 frames, an update every 16.
 //! struct Panel;
 //! impl Profile for Panel {
+//!     const LAYOUT: Layout = Layout::VELOCITY565;
 //!     const BITS: Bits = Bits::must(Bits::derive_without_acceleration(Demand { extent: 64, recog: 8, prop: 16 }));
 //! }
 //!
-//! let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
-//! let grid = Grid::new(64, 4, Margin::NONE, &mut rows)?;
-//! let mut front = Galpixmap::<Velocity565, _>::new(grid, Static::<Panel>::new(), &mut front)?;
-//! let back = Galpixmap::new(grid, Static::<Panel>::new(), &mut back)?;
+//! fn main() -> Result<(), SetupError> {
+//!     // Row starts, and two maps of 64 x 4 cells, two words each.
+//!     let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
+//!     let grid = Grid::new(64, 4, Margin::NONE, &mut rows)?;
+//!     let mut front = Galpixmap::new(grid, Static::<Panel>::new(), &mut front)?;
+//!     let back = Galpixmap::new(grid, Static::<Panel>::new(), &mut back)?;
 //!
-//! // A white galpixel that moves right by three quarters of a cell a frame.
-//! let velocity = [I32F32::lit("0.75"), I32F32::ZERO, I32F32::ZERO];
-//! front.store(10, 2, &Galpixel { colour: [255; 3], velocity, ..Galpixel::default() });
+//!     // A white galpixel that moves right by three quarters of a cell a frame.
+//!     let velocity = [I32F32::lit("0.75"), I32F32::ZERO, I32F32::ZERO];
+//!     front.store(10, 2, &Galpixel { colour: [255; 3], velocity, ..Galpixel::default() });
 //!
-//! let mut controller = Controller::new(front, back, Scratch::default())?;
-//! let tally = controller.step(&Settings::for_depth(16));
-//! assert_eq!((tally.moved, tally.lost), (1, 0));
-//! assert_eq!(controller.front().rgb888(11, 2), Some([255; 3]));
-//! # Ok::<(), galpix_core::error::SetupError>(())
+//!     let mut controller = Controller::new(front, back, Scratch::default())?;
+//!     let tally = controller.step(&Settings::for_depth(16));
+//!     assert_eq!((tally.moved, tally.lost), (1, 0));
+//!     assert_eq!(controller.front().rgb888(11, 2), Some([255; 3]));
+//!     Ok(())
+//! }
 //! ```
 
 #![no_std]

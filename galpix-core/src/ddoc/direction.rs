@@ -4,7 +4,6 @@
 //! With `p = c_xx - c_yy` and `q = 2 c_xy` the double angle of the axis is that of (p, q), and half of it needs no arc: where
 //! `h = |(p, q)|`, the axis is along `(h + p, q)`, or along `(q, h - p)` where p is negative and the first would vanish.
 
-use super::edges::Window;
 use crate::inpaint::root;
 
 /// Fraction bits of a unit vector's components.
@@ -57,6 +56,15 @@ impl Moments {
             Some([p - h, q])
         }
     }
+}
+
+/// What is seen around a cell of an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Window {
+    /// The cells of the same edge.
+    pub moments: Moments,
+    /// The sum of all depths, each times its place from the middle: points to where it is farther.
+    pub slope: [i64; 2],
 }
 
 /// The direction at an edge, as a unit vector: the normal of the line through its cells, turned to where it is farther; the

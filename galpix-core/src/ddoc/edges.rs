@@ -4,20 +4,11 @@
 //! Edge cells are those whose Laplacian (17) is *above* the threshold: their neighbours are farther. Those on the other
 //! side of the same edge are as far below; they are no centres, or each edge would count twice, once from its wrong side.
 
-use super::direction::{self, Moments};
+use super::direction::{self, Window};
 use super::splat::Splat;
 use super::{FRACTION_BITS, Settings, Tally};
 use crate::frame::edge::laplacian;
 use crate::map::grid::Grid;
-
-/// What is seen around a cell of an edge.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Window {
-    /// The cells of the same edge.
-    pub moments: Moments,
-    /// The sum of all depths, each times its place from the middle: points to where it is farther.
-    pub slope: [i64; 2],
-}
 
 /// Steps 2 and the first half of 3: finds the cells of edges, their directions and depths. Afterwards no cell has an owner.
 pub(super) fn gather<'s>(

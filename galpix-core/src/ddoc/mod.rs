@@ -18,9 +18,8 @@
 //! place that is moved; nothing overflows, and nothing panics.
 //!
 //! ```
-//! use galpix_core::ddoc::splat::Splat;
-//! use galpix_core::ddoc::{DistortionMap, ONE, Settings};
-//! use galpix_core::grid::{Grid, Margin};
+//! use galpix_core::ddoc::{DistortionMap, ONE, Settings, Splat};
+//! use galpix_core::{Grid, Margin};
 //!
 //! // The left half of a picture is near, the right half far.
 //! let mut rows = [0; 16];
@@ -36,12 +35,12 @@
 //! // is seen; what is near stays.
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 9000), [3 * ONE, 0]);
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 1000), [0, 0]);
-//! # Ok::<(), galpix_core::error::SetupError>(())
+//! # Ok::<(), galpix_core::SetupError>(())
 //! ```
 
-pub mod direction;
-pub mod edges;
-pub mod splat;
+mod direction;
+mod edges;
+mod splat;
 
 #[cfg(test)]
 mod tests;
@@ -53,7 +52,8 @@ use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 use direction::along;
-use splat::Splat;
+
+pub use splat::Splat;
 
 /// Fraction bits of places and lengths.
 pub const FRACTION_BITS: u32 = 8;

@@ -37,7 +37,12 @@ pub(crate) fn make_cover<F: Format>(
     for y in (0..rows).rev() {
         up.row::<UPWARDS, DOWNWARDS>(y);
     }
-    Tally { covered: up.covered, ..tally }
+    let tally = Tally { covered: up.covered, ..tally };
+    #[cfg(feature = "check")]
+    if up.mask.len() >= crate::frame::edge::words(front.grid()) {
+        super::check::cover(front, up.mask, &tally, reach);
+    }
+    tally
 }
 
 /// A pass over all rows.

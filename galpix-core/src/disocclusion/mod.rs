@@ -7,8 +7,7 @@
 //!
 //! 1. [`mark()`] looks at each pair of neighbours: where one gets away from the other, the nearer one leaves, and uncovers what is
 //!    behind itself and behind the cells that it comes by (Algorithm 1)
-//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2), [`spread_by_doubling`] the same in steps of 1, 2, 4, ... cells for machines that
-//!    work on all cells at once
+//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2)
 //!
 //! [`map`] does 1 and 2 in one pass down and one pass up; [`cover`] needs a single line of memory for the same, and keeps one bit a cell.
 //!
@@ -19,7 +18,6 @@
 //! **Memory:** four bytes a cell. **Cost:** some vector operations a cell and some hundred operations a pair that is looked at; additions and
 //! shifts.
 
-mod doubling;
 mod extents;
 mod line;
 mod mark;
@@ -27,7 +25,6 @@ mod pair;
 mod reach;
 mod spread;
 
-pub use doubling::spread_by_doubling;
 pub use extents::Extents;
 pub use line::cover;
 pub(crate) use line::make_cover;
@@ -129,6 +126,16 @@ pub fn map<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Rea
 }
 
 pub(crate) fn make<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
+    #[cfg(feature = "check")]
+    let expected = check::expected(front, extents.to_vec(), reach);
+    let tally = make_by_rows(front, extents, reach);
+    #[cfg(feature = "check")]
+    assert_eq!((&*extents, tally), (&*expected.0, expected.1), "the disocclusion map by rows");
+    tally
+}
+
+/// Marks and spreads row by row, while a row is in the cache.
+fn make_by_rows<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
     let grid = *front.grid();
     let mut marker = Marker::new(front, reach);
     for (&start, y) in grid.starts().iter().zip(0..) {
@@ -143,4 +150,36 @@ pub(crate) fn make<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], rea
 #[must_use]
 pub fn covered(extents: &[u32], cell: u32) -> bool {
     extents.get(cell as usize).is_some_and(|&word| word != 0)
+}
+
+#[cfg(feature = "check")]
+mod check {
+    extern crate std;
+
+    use std::vec;
+    use std::vec::Vec;
+
+    use super::{Reach, Tally, mark_pairs, spread};
+    use crate::format::Format;
+    use crate::map::Galpixmap;
+
+    /// Returns what the reference leaves in `extents`: all cells marked, then spread.
+    pub(super) fn expected<F: Format>(
+        front: &Galpixmap<'_, F>,
+        mut extents: Vec<u32>,
+        reach: &Reach,
+    ) -> (Vec<u32>, Tally) {
+        let marked = mark_pairs(front, &mut extents, reach);
+        let covered = spread(&mut extents, front.grid());
+        (extents, Tally { covered, ..marked })
+    }
+
+    /// Asserts that a mask holds the cells that the map of extents covers.
+    pub(super) fn cover<F: Format>(front: &Galpixmap<'_, F>, mask: &[u32], tally: &Tally, reach: &Reach) {
+        let cells = front.grid().cells() as usize;
+        let (extents, expected) = expected(front, vec![0; cells], reach);
+        assert_eq!(*tally, expected, "the counts of the cells that are covered");
+        let made = |cell: usize| mask[cell / 32] >> (cell % 32) & 1 != 0;
+        assert!((0..cells).all(|cell| made(cell) == (extents[cell] != 0)), "the cells that are covered");
+    }
 }

@@ -6,8 +6,7 @@
 //! `s - s' + slack`, divided by `M` and rounded down, bounds what it gets ahead; with the places in the cells, rounded up to whole
 //! cells, it bounds the cells (`floor(p) - floor(q) <= ceil(p - q)`).
 //!
-//! The sums are those of a parabola, until a velocity saturates. Nothing is multiplied on machines without vector registers: the frames
-//! are 8 bits, and their products sums of shifts.
+//! The sums are those of a parabola, until a velocity saturates.
 
 use crate::fast::VECTORS;
 use crate::format::record::Scale;
@@ -57,18 +56,17 @@ pub(crate) struct Bound {
     slack: i64,
 }
 
-/// `x` times `n`, of which 8 bits count.
+/// Returns `x` times `n`, of which 8 bits count; it may wrap.
 #[inline(always)]
 fn times(x: i64, n: u32) -> i64 {
     if VECTORS {
         return x.wrapping_mul(i64::from(n));
     }
-    let (mut sum, mut x, mut n) = (0i64, x, n & 0xff);
-    while n != 0 {
-        sum = sum.wrapping_add(if n & 1 != 0 { x } else { 0 });
-        (x, n) = (x << 1, n >> 1);
-    }
-    sum
+    // On thumbv6m (rustc 1.95) a product of 64 bits is a call of `__aeabi_lmul`. Three products of 24 by 8 bits are not.
+    const LIMB: i64 = (1 << 24) - 1;
+    let n = n & 0xff;
+    let limb = |down: u32| i64::from((x >> down & LIMB) as u32 * n);
+    limb(0).wrapping_add(limb(24) << 24).wrapping_add(limb(48) << 48)
 }
 
 impl Bound {
@@ -127,20 +125,9 @@ impl Bound {
         })
     }
 
-    /// The largest sum of `s - s' + slack` over the first 1 to `frames` frames.
+    /// Returns the largest sum of `s - s' + slack` over the first 1 to `frames` frames.
     #[inline(always)]
     fn most(&self, of: &Relative, slack: i64) -> i64 {
-        if VECTORS { self.most_here(of, slack) } else { self.most_apart(of, slack) }
-    }
-
-    /// The same as a function, of which nothing is known where it is called: of sums of shifts beside each other with both signs products are made.
-    #[inline(never)]
-    fn most_apart(&self, of: &Relative, slack: i64) -> i64 {
-        self.most_here(of, slack)
-    }
-
-    #[inline(always)]
-    fn most_here(&self, of: &Relative, slack: i64) -> i64 {
         if let Some([one, other]) = of.saturating {
             return self.most_in_steps(one, other, slack);
         }
@@ -187,9 +174,7 @@ impl Bound {
 #[inline(always)]
 fn vertex(first: i64, change: i64, frames: u32) -> i64 {
     let (mut sum, mut step, mut left) = (0i64, first, frames);
-    // As many powers as the frames have bits: a number that is not known before, so that no shifts become products.
-    let powers = (0..8).filter(|power| frames >> power != 0).count() as u32;
-    for power in (0..powers).rev() {
+    for power in (0..8).rev() {
         // 2^power steps more, if they are there and the last of them goes ahead.
         let last = step - (change << 1) + (change << (power + 1));
         if left >> power != 0 && last > 0 {

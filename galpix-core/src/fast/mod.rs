@@ -3,17 +3,20 @@
 //! Every pass has a reference in [`crate::frame`], whose work does not depend on the picture. Here is at most one faster form
 //! for each class of machine: [`wide`] where loops over neighbours become vector code, [`narrow`] where they do not.
 
-pub mod narrow;
+#[cfg(feature = "check")]
+mod check;
+mod fill;
+mod narrow;
 pub mod rolling;
-pub mod wide;
+mod wide;
 
 use crate::disocclusion::{self, Reach};
 use crate::error::SetupError;
 use crate::format::rounding::Rounding;
 use crate::format::{Dynamic, Format, Profile, Static};
-use crate::frame::fill::{self, FillMode};
+use crate::frame::fill::Around;
 use crate::frame::tally::Tally;
-use crate::frame::{self, Inpainting, Scratch, Settings};
+use crate::frame::{self, Inpainting, Scratch, Settings, reference};
 use crate::inpaint::metamer::{self, Recipe};
 use crate::inpaint::paint::{Moving, Tint};
 use crate::inpaint::pyramid::Pyramid;
@@ -28,12 +31,14 @@ pub(crate) const VECTORS: bool =
 
 /// Marks the edges of a map, see [`crate::frame::edge::mark`].
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
+    #[cfg(feature = "check")]
+    check::mark(front, threshold, edges);
     if VECTORS { wide::edge::mark(front, threshold, edges) } else { narrow::edge::mark(front, threshold, edges) }
 }
 
-/// [`mark`] by instructions that do not depend on the picture.
+/// Marks the edges of a map by instructions that do not depend on the picture.
 pub(crate) fn mark_constant_time<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
-    if VECTORS { wide::edge::mark(front, threshold, edges) } else { narrow::edge::mark_all(front, threshold, edges) }
+    if VECTORS { wide::edge::mark(front, threshold, edges) } else { reference::edge::mark(front, threshold, edges) }
 }
 
 /// Propagates and resolves a map, see [`crate::frame::resolve::sweep`].
@@ -44,11 +49,48 @@ pub(crate) fn sweep<F: Format>(
     rounding: Rounding,
     frame: u32,
 ) -> Tally {
+    #[cfg(feature = "check")]
+    check::sweep(front, back, winners, rounding, frame);
     if VECTORS {
         wide::sweep(front, back, winners, rounding, frame)
     } else {
         narrow::sweep(front, back, winners, rounding, frame)
     }
+}
+
+/// Fills the holes of `back`, see [`crate::frame::fill::fill`].
+pub(crate) fn fill<F: Format>(
+    around: &impl Around,
+    back: &mut Galpixmap<'_, F>,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
+    tally: &mut Tally,
+) {
+    #[cfg(feature = "check")]
+    check::fill(around, back, scratch, settings, tally);
+    fill::fill(around, back, scratch, settings, tally);
+}
+
+/// Fills the bullet holes of `back` alone.
+pub(crate) fn fill_bullets<F: Format>(
+    back: &mut Galpixmap<'_, F>,
+    scratch: &mut Scratch<'_>,
+    reach: u32,
+    tally: &mut Tally,
+) {
+    #[cfg(feature = "check")]
+    check::fill_bullets(back, scratch, reach, tally);
+    fill::fill_bullets(back, scratch, reach, tally);
+}
+
+/// Makes the next frame of a map in place, see [`Rolling::step`].
+fn rolling_step<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings) -> Tally {
+    #[cfg(feature = "check")]
+    let expected = check::rolling(rolling, settings);
+    let tally = rolling::make(rolling, settings);
+    #[cfg(feature = "check")]
+    expected.compare(rolling.map(), &tally);
+    tally
 }
 
 /// Declares the passes over maps: generic in the format, and compiled once, here, for [`Dynamic`].
@@ -94,13 +136,11 @@ passes! {
     fn fill(
         front: &Galpixmap<'_, Self>,
         back: &mut Galpixmap<'_, Self>,
-        winners: &mut [u32],
-        edges: &[u32],
-        fill_mode: FillMode,
-        reach: u32,
+        scratch: &mut Scratch<'_>,
+        settings: &Settings,
         tally: &mut Tally,
-    ) = fill::fill_around;
-    fn rolling_step(rolling: &mut Rolling<'_, Self>, settings: &Settings) -> Tally = rolling::make;
+    ) = fill;
+    fn rolling_step(rolling: &mut Rolling<'_, Self>, settings: &Settings) -> Tally = rolling_step;
     fn layers_step(layers: &mut Layers<'_, '_, Self>, settings: &Settings) -> Tally = layers::make::<Self, false>;
     fn layers_step_constant_time(layers: &mut Layers<'_, '_, Self>, settings: &Settings) -> Tally =
         layers::make::<Self, true>;

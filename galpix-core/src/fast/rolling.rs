@@ -17,11 +17,11 @@
 
 use crate::error::SetupError;
 use crate::fast;
+use crate::fast::fill::RowFill;
 use crate::fast::narrow::{clear, sweep_row};
 use crate::format::Format;
 use crate::format::record::Record;
 use crate::frame::edge;
-use crate::frame::fill::RowFill;
 use crate::frame::step::thresholds;
 use crate::frame::tally::Tally;
 use crate::frame::{Inpainting, Scratch, Settings};
@@ -88,8 +88,8 @@ pub(crate) fn make<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings)
         let complete = y - reach;
         for round in 0..rounds {
             let (last, y) = (round + 1 == rounds, complete - 1 - round as i32);
-            let row = RowFill { edges: scratch.edges, fill_mode: settings.fill_mode, y, round, last };
-            row.fill(map, window, scratch.winners, &mut tally);
+            let row = RowFill { fill_mode: settings.fill_mode, y, round, last };
+            row.fill(map, window, scratch, &mut tally);
         }
         rolling.copy_back(complete - rounds as i32);
     }
@@ -154,6 +154,18 @@ impl<'p, F: Format> Rolling<'p, F> {
                 to.copy_from_slice(from);
             }
         }
+    }
+
+    /// The caller-provided buffers.
+    #[cfg(feature = "check")]
+    pub(crate) const fn scratch(&self) -> &Scratch<'p> {
+        &self.scratch
+    }
+
+    /// The rounds of bullet filling that the window has rows for.
+    #[cfg(feature = "check")]
+    pub(crate) const fn rounds(&self) -> u32 {
+        self.rounds
     }
 
     /// The map as it is shown.

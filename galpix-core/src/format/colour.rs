@@ -124,7 +124,6 @@ impl Colour {
     /// Stores 8-bit red, green and blue, by dropping low bits.
     #[inline(always)]
     #[must_use]
-    #[expect(clippy::wrong_self_convention, reason = "converts from the argument into this format")]
     pub const fn from_rgb888(self, rgb: [u8; 3]) -> u32 {
         let [first, second, third] = self.channels;
         if self.is_gray() {
@@ -192,8 +191,10 @@ pub const fn luminosity([red, green, blue]: [u8; 3]) -> u8 {
 /// Repeats the `bits` bits of `level` until they fill 8.
 #[inline(always)]
 const fn widened(level: u32, bits: u32) -> u8 {
-    let top = level << (8 - bits);
-    let twice = top | top >> bits;
-    let four = twice | twice >> (2 * bits);
-    (four | four >> (4 * bits)) as u8
+    let (mut wide, mut filled) = (level << (8 - bits), bits);
+    while filled < 8 {
+        wide |= wide >> filled;
+        filled <<= 1;
+    }
+    wide as u8
 }

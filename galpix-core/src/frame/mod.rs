@@ -17,7 +17,7 @@ use crate::inpaint::push_pull::Rule;
 use crate::inpaint::pyramid::{DEPTH_BITS, Pyramid};
 use crate::inpaint::validity::Gamma;
 use crate::map::Galpixmap;
-use fill::{Around, FillMode, fill_around};
+use fill::{Around, FillMode};
 use tally::Tally;
 
 /// What a frame is made with.
@@ -257,10 +257,9 @@ pub(crate) fn fill_holes<F: Format, const CONSTANT_TIME: bool>(
     settings: &Settings,
     tally: &mut Tally,
 ) {
-    let (winners, fill_mode, reach) = (&mut *scratch.winners, settings.fill_mode, settings.reach);
     if CONSTANT_TIME {
-        reference::fill_around(around, back, winners, scratch.edges, fill_mode, reach, tally);
+        reference::fill(around, back, scratch, settings, tally);
     } else {
-        fill_around(around, back, winners, scratch.edges, fill_mode, reach, tally);
+        fast::fill(around, back, scratch, settings, tally);
     }
 }

@@ -201,7 +201,7 @@ mod tests {
     #[test]
     fn a_near_level_is_stored() {
         for level in 0..=255u8 {
-            let [red, green, blue] = Rgb565::to_rgb888(stored::<Rgb565>([level; 3]));
+            let [red, green, blue] = Colour::RGB565.to_rgb888(stored(&Colour::RGB565, [level; 3]));
             // Steps of five bits are 8 or 9 wide, those of six 4 or 5.
             assert!(level.abs_diff(red) <= 5 && level.abs_diff(green) <= 3 && red == blue, "{level}: {red} {green}");
         }

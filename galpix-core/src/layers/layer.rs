@@ -1,9 +1,9 @@
 //! One layer beside the base: its maps, and which cells of the base it has a seat in.
 
 use crate::error::SetupError;
+use crate::fast;
 use crate::format::Format;
 use crate::frame::edge;
-use crate::frame::fill::fill_bullets;
 use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings, move_on, reference};
 use crate::layers::seat;
@@ -103,11 +103,10 @@ impl<'p, F: Format> Layer<'p, F> {
         }
         let mut tally = move_on::<F, CONSTANT_TIME>(front, back, scratch, settings, frame);
         if settings.fill_mode.uses_edges() && !scratch.edges.is_empty() && !scratch.winners.is_empty() {
-            let (winners, reach) = (&mut *scratch.winners, settings.reach);
             if CONSTANT_TIME {
-                reference::fill_bullets(back, winners, scratch.edges, reach, &mut tally);
+                reference::fill_bullets(back, scratch, settings.reach, &mut tally);
             } else {
-                fill_bullets(back, winners, scratch.edges, reach, &mut tally);
+                fast::fill_bullets(back, scratch, settings.reach, &mut tally);
             }
         }
         tally

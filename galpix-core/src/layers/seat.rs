@@ -35,20 +35,11 @@ pub(super) fn take<F: Format, const CONSTANT_TIME: bool>(
         }
         let mut nearer = [0; RUN];
         let mut any = 0;
-        if VECTORS {
-            let keys = base.keys(run.clone()).zip(layer.keys(run.clone()));
-            for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(keys) {
-                // An empty cell gets no seat, whatever is left in its other fields.
-                *nearer = below(challenger, incumbent.min(empty));
-                any |= *nearer;
-            }
-        } else {
-            // The same cell by cell: a compiler makes a product of a run's length and whether it is there.
-            for (nearer, cell) in nearer.iter_mut().zip(run.start as u32..run.end as u32) {
-                let (incumbent, challenger) = (base.key_at(cell).unwrap_or(0), layer.key_at(cell).unwrap_or(0));
-                *nearer = below(challenger, incumbent.min(empty));
-                any |= *nearer;
-            }
+        let keys = base.keys(run.clone()).zip(layer.keys(run.clone()));
+        for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(keys) {
+            // An empty cell is not shown, whatever is left in its other fields.
+            *nearer = below(challenger, incumbent.min(empty));
+            any |= *nearer;
         }
         if CONSTANT_TIME || any != 0 {
             for (lane, &nearer) in nearer.iter().enumerate() {
@@ -92,9 +83,7 @@ fn exchange<F: Format, const CONSTANT_TIME: bool>(
     }
     let mut masks = [0; RUN];
     for (lane, mask) in masks.iter_mut().enumerate() {
-        let seated = (seats >> lane & 1).wrapping_neg();
-        // A compiler that knows what it is may multiply by the bit; one with vector registers is to know it.
-        *mask = if VECTORS { seated } else { opaque(seated) };
+        *mask = (seats >> lane & 1).wrapping_neg();
     }
     for (base, layer) in planes {
         let (Some(base), Some(layer)) = (base.get_mut(run.clone()), layer.get_mut(run.clone())) else { continue };

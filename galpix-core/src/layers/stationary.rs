@@ -7,8 +7,8 @@
 
 use crate::format::Format;
 use crate::format::rounding::Rounding;
-use crate::frame::reference::{below, beyond, cell_or_first, empty, merge, merge_word, opaque};
-use crate::frame::resolve::{self, NO_WINNER};
+use crate::frame::reference::{Challenger, below, challenge, merge, opaque};
+use crate::frame::resolve::NO_WINNER;
 use crate::frame::step::{advance, thresholds};
 use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
@@ -77,19 +77,8 @@ impl<F: Format> Stationary<'_, F> {
                     merge(&mut self.stored, source, &words, there);
                 }
                 let [dx, dy] = displacement(*place);
-                let place = [x + dx, y + dy];
-                let beyond = opaque(beyond(&grid, place));
-                let cell = cell_or_first(&grid, place, beyond);
-                let incumbent = drawn.key_at(cell).unwrap_or(0);
-                let key = resolve::key(record, &words);
-                let challenges = there & !beyond;
-                // In raster order the incumbent has the smaller source: of equal keys it stays.
-                let wins = opaque(challenges & below(key, incumbent));
-                merge(drawn, cell, &words, wins);
-                merge_word(winners, cell, source, wins);
-                tally.moved += there & 1;
-                tally.lost += there & beyond & 1;
-                tally.collided += challenges & !empty(drawn.class_of(incumbent)) & 1;
+                let challenger = Challenger { words, source, place: [x + dx, y + dy], there };
+                challenge(drawn, winners, &challenger, &mut tally);
             }
         }
         tally

@@ -70,7 +70,6 @@ mod panel {
     use crate::format::Format;
     use crate::format::colour::Colour;
     use crate::map::Galpixmap;
-    use crate::output::overlay::Overlay;
 
     use super::{Bare, Over};
 
@@ -151,10 +150,10 @@ mod panel {
             Self { map, over: Bare, pixel: PhantomData, top, rows: rows.min(map.grid().display_height() - top) }
         }
 
-        /// The same under an overlay.
+        /// Returns the same under an overlay.
         #[must_use]
-        pub fn under<'o, 'q>(self, overlay: &'o Overlay<'q>) -> View<'m, 'p, F, C, &'o Overlay<'q>> {
-            View { map: self.map, over: overlay, pixel: PhantomData, top: self.top, rows: self.rows }
+        pub fn under<O: Over>(self, over: O) -> View<'m, 'p, F, C, O> {
+            View { map: self.map, over, pixel: PhantomData, top: self.top, rows: self.rows }
         }
     }
 

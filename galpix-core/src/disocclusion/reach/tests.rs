@@ -116,7 +116,7 @@ fn sums_are_those_of_single_steps() {
 }
 
 #[test]
-fn products_are_sums_of_shifts() {
+fn products_are_products() {
     let by_shifts = |x: i64, n: u32| (0..8).map(|bit| if n >> bit & 1 != 0 { x << bit } else { 0 }).sum::<i64>();
     for x in [-(1 << 40), -77, 0, 1, 12_345_678_901] {
         for n in [0, 1, 2, 3, 254, 255] {

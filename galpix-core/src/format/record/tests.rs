@@ -4,10 +4,11 @@ extern crate std;
 
 use super::{FIELDS, Field, MAX_WORDS, Record, Words};
 use crate::format::budget::{Bits, Demand};
-use crate::format::layout::Lanes;
+use crate::format::colour::Colour;
+use crate::format::layout::Layout;
 
-/// Depth bits, motion, luminosity and tag in many combinations; with the bits of a colour.
-fn layouts() -> impl Iterator<Item = (Lanes, u32)> {
+/// Depth bits, motion, luminosity, tag and colour in many combinations.
+fn layouts() -> impl Iterator<Item = Layout> {
     let depths = [0, 4, 8, 16, 24];
     let motions =
         [(false, false, false), (true, false, false), (true, true, false), (true, true, true), (true, false, true)];
@@ -15,8 +16,15 @@ fn layouts() -> impl Iterator<Item = (Lanes, u32)> {
     depths.into_iter().flat_map(move |depth_bits| {
         motions.into_iter().flat_map(move |(velocity, acceleration, depth_motion)| {
             rest.into_iter().flat_map(move |(luminosity, tag_bits)| {
-                let lanes = Lanes { depth_bits, velocity, acceleration, depth_motion, luminosity, tag_bits };
-                [4, 8, 16, 24].into_iter().map(move |colour_bits| (lanes, colour_bits))
+                [Colour::GRAY4, Colour::GRAY8, Colour::RGB565, Colour::RGB888].map(|colour| Layout {
+                    colour,
+                    depth_bits,
+                    velocity,
+                    acceleration,
+                    depth_motion,
+                    luminosity,
+                    tag_bits,
+                })
             })
         })
     })
@@ -33,12 +41,9 @@ fn budgets() -> impl Iterator<Item = Bits> {
     })
 }
 
-fn records() -> impl Iterator<Item = (Record, Lanes, Bits, u32)> {
-    budgets().flat_map(|bits| {
-        layouts().filter_map(move |(lanes, colour_bits)| {
-            Some((Record::plan(bits, lanes, colour_bits).ok()?, lanes, bits, colour_bits))
-        })
-    })
+fn records() -> impl Iterator<Item = (Record, Layout, Bits)> {
+    budgets()
+        .flat_map(|bits| layouts().filter_map(move |layout| Some((Record::plan(bits, layout).ok()?, layout, bits))))
 }
 
 fn top(field: Field) -> u32 {
@@ -48,12 +53,12 @@ fn top(field: Field) -> u32 {
 #[test]
 fn every_field_is_there_alone_and_in_the_fewest_words() {
     let (mut planned, mut straddling) = (0, 0);
-    for (record, lanes, bits, colour_bits) in records() {
+    for (record, layout, bits) in records() {
         planned += 1;
         straddling += record.fields.iter().any(|field| field.spill > 0) as u32;
         let total: u32 = record.fields.iter().map(|field| u32::from(field.bits)).sum();
         assert_eq!(record.bits(), total);
-        assert_eq!(record.words(), total.div_ceil(32) as usize, "{bits:?} {lanes:?} {colour_bits}");
+        assert_eq!(record.words(), total.div_ceil(32) as usize, "{bits:?} {layout:?}");
         assert_eq!(record.bytes(), 4 * record.words());
         // A field that is set alone sets as many bits as it has, and no bit belongs to two.
         let mut taken = Words::default();
@@ -74,18 +79,22 @@ fn every_field_is_there_alone_and_in_the_fewest_words() {
 
 #[test]
 fn every_field_is_read_as_it_was_set_and_disturbs_no_other() {
-    for (record, lanes, _, _) in records().step_by(7) {
+    for (record, layout, _) in records().step_by(7) {
         for (chosen, field) in record.fields.into_iter().enumerate() {
             for ground in [0, u32::MAX, 0x5a5a_1234] {
                 for value in [0, 1, u32::MAX, 1 << 31 >> (32 - field.bits.clamp(1, 32)), 0x2c6e_9b31] {
                     let mut words: Words = [ground; MAX_WORDS];
                     let before: [u32; FIELDS] = record.fields.map(|field| field.unsigned(&words));
                     field.set(&mut words, value);
-                    assert_eq!(field.unsigned(&words), value & top(field), "{field:?} of {lanes:?}");
-                    assert_eq!(i64::from(field.signed(&words)), two_complement(field, value), "{field:?} of {lanes:?}");
+                    assert_eq!(field.unsigned(&words), value & top(field), "{field:?} of {layout:?}");
+                    assert_eq!(
+                        i64::from(field.signed(&words)),
+                        two_complement(field, value),
+                        "{field:?} of {layout:?}"
+                    );
                     for (other, (field, before)) in record.fields.into_iter().zip(before).enumerate() {
                         if other != chosen {
-                            assert_eq!(field.unsigned(&words), before, "{field:?} of {lanes:?} was disturbed");
+                            assert_eq!(field.unsigned(&words), before, "{field:?} of {layout:?} was disturbed");
                         }
                     }
                     let spare = &words[record.words()..];
@@ -105,19 +114,19 @@ fn two_complement(field: Field, value: u32) -> i64 {
 /// A first-fit record has class and depth in one word, the class on top: they compare as one number.
 #[test]
 fn fields_stand_in_canonical_order_from_the_top() {
-    for (record, lanes, _, _) in records() {
+    for (record, layout, _) in records() {
         let place = |field: &Field| {
             u32::from(field.word) * 32 + 32 - u32::from(field.shift) - u32::from(field.bits - field.spill)
         };
         let present: std::vec::Vec<&Field> = record.fields.iter().filter(|field| field.present()).collect();
         for pair in present.windows(2) {
             if pair[0].word == pair[1].word {
-                assert!(place(pair[0]) < place(pair[1]), "{pair:?} of {lanes:?}");
+                assert!(place(pair[0]) < place(pair[1]), "{pair:?} of {layout:?}");
             }
         }
         if present.iter().any(|field| field.spill > 0) {
             let ends = present.iter().map(|field| (place(field), place(field) + u32::from(field.bits)));
-            assert!(ends.clone().zip(ends.skip(1)).all(|((_, end), (start, _))| end == start), "gaps in {lanes:?}");
+            assert!(ends.clone().zip(ends.skip(1)).all(|((_, end), (start, _))| end == start), "gaps in {layout:?}");
         }
     }
 }
@@ -125,7 +134,7 @@ fn fields_stand_in_canonical_order_from_the_top() {
 #[test]
 fn the_papers_galpixel() {
     let bits = Bits::derive(Demand { extent: 1024, recog: 8, prop: 16 }).unwrap();
-    let record = Record::plan(bits, Lanes::FULL, 24).unwrap();
+    let record = Record::plan(bits, Layout::FULL).unwrap();
     assert_eq!(record.bits(), 2 + 16 + 3 * 36 + 24, "class, z-buffer, equation (14) thrice, colour");
     assert_eq!(record.bytes(), 20);
     assert_eq!(record.velocity(0).bits + record.acceleration(0).bits, 32, "one machine word");

@@ -7,22 +7,22 @@ use crate::format::record::Words;
 use crate::frame::fill::{Around, FILLED, FillMode, Nothing};
 use crate::frame::resolve::NO_WINNER;
 use crate::frame::tally::Tally;
+use crate::frame::{Scratch, Settings};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// [`fill`], whatever was shown before.
-pub(crate) fn fill_around<F: Format>(
+/// Fills the holes of `back`, see [`crate::frame::fill::fill`].
+pub(crate) fn fill<F: Format>(
     around: &impl Around,
     back: &mut Galpixmap<'_, F>,
-    winners: &mut [u32],
-    edges: &[u32],
-    fill_mode: FillMode,
-    reach: u32,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
     tally: &mut Tally,
 ) {
     let grid = *back.grid();
-    let rounds = fill_mode.rounds(reach);
-    let mut filler = Filler { around, back, winners, edges, fill_mode, tally };
+    let rounds = settings.fill_mode.rounds(settings.reach);
+    let Scratch { winners, edges } = scratch;
+    let mut filler = Filler { around, back, winners, edges, fill_mode: settings.fill_mode, tally };
     for round in 0..rounds {
         for (y, &row) in (0..).zip(grid.starts()) {
             filler.row(row, y, round, round + 1 == rounds);
@@ -30,18 +30,18 @@ pub(crate) fn fill_around<F: Format>(
     }
 }
 
-/// [`crate::frame::fill::fill_bullets`] with constant work.
+/// Fills the bullet holes alone: other holes stay empty, and are not counted.
 pub(crate) fn fill_bullets<F: Format>(
     back: &mut Galpixmap<'_, F>,
-    winners: &mut [u32],
-    edges: &[u32],
+    scratch: &mut Scratch<'_>,
     reach: u32,
     tally: &mut Tally,
 ) {
     let grid = *back.grid();
     let format = back.format();
-    let mut filler =
-        Filler { around: &Nothing(format.record()), back, winners, edges, fill_mode: FillMode::Bullet, tally };
+    let Scratch { winners, edges } = scratch;
+    let around = &Nothing(format.record());
+    let mut filler = Filler { around, back, winners, edges, fill_mode: FillMode::Bullet, tally };
     for round in 0..FillMode::Bullet.rounds(reach) {
         for (y, &row) in (0..).zip(grid.starts()) {
             filler.row(row, y, round, false);

@@ -12,11 +12,12 @@
 //! again and jumps. That the machine code does not is measured, see `docs/results.md`.
 
 mod bullet;
+pub(crate) mod edge;
 mod fill;
 mod sweep;
 
-pub(crate) use fill::{fill_around, fill_bullets};
-pub(crate) use sweep::sweep;
+pub(crate) use fill::{fill, fill_bullets};
+pub(crate) use sweep::{Challenger, challenge, sweep};
 
 use crate::format::Format;
 use crate::format::record::{Record, Words};

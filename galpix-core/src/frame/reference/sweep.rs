@@ -1,6 +1,6 @@
 //! Propagation and resolution, cell by cell in raster order: every galpixel, also one that is not there, challenges one cell.
 
-use super::{below, beyond, cell_or_first, empty, merge, merge_word};
+use super::{below, beyond, cell_or_first, empty, is_empty, merge, merge_word};
 use crate::format::Format;
 use crate::format::record::Words;
 use crate::format::rounding::Rounding;
@@ -32,28 +32,55 @@ pub fn sweep<F: Format>(
         for (x, source) in (0..grid.width() as i32).zip(start..) {
             let mut words = front.words_at(source).unwrap_or_default();
             let step = advance::<true>(record, &thresholds, &mut words);
-            let key = resolve::key(record, &words);
-            let there = !empty(front.class_of(key));
-            let place = [x + step.dx, y + step.dy];
-            let beyond = beyond(&grid, place);
-            // In raster order the incumbent has the smaller source: of equal keys it stays.
-            let cell = cell_or_first(&grid, place, beyond);
-            let incumbent = back.key_at(cell).unwrap_or(0);
-            let challenges = there & !beyond;
-            let wins = challenges & below(key, incumbent);
-            merge(back, cell, &words, wins);
-            merge_word(winners, cell, source, wins);
-            tally.moved += there & 1;
-            tally.lost += there & beyond & 1;
-            tally.collided += challenges & !empty(back.class_of(incumbent)) & 1;
+            let there = !is_empty(record, &words);
+            challenge(
+                back,
+                winners,
+                &Challenger { words, source, place: [x + step.dx, y + step.dy], there },
+                &mut tally,
+            );
             tally.saturated += step.saturated() & there;
         }
     }
     tally
 }
 
-/// Makes all cells empty and nobody their winner.
-fn clear<F: Format>(back: &mut Galpixmap<'_, F>, winners: &mut [u32]) {
+/// A galpixel on its way to a cell.
+pub(crate) struct Challenger {
+    pub words: Words,
+    /// The cell that it comes from.
+    pub source: u32,
+    /// Column and row of the cell that it wants.
+    pub place: [i32; 2],
+    /// All ones if there is a galpixel at all, else 0.
+    pub there: u32,
+}
+
+/// Stores a challenger if its cell is on the map and holds nothing nearer; reads and writes the same words in any case.
+#[inline(always)]
+pub(crate) fn challenge<F: Format>(
+    back: &mut Galpixmap<'_, F>,
+    winners: &mut [u32],
+    challenger: &Challenger,
+    tally: &mut Tally,
+) {
+    let Challenger { words, source, place, there } = challenger;
+    let grid = *back.grid();
+    let beyond = beyond(&grid, *place);
+    let cell = cell_or_first(&grid, *place, beyond);
+    let (key, incumbent) = (resolve::key(back.record(), words), back.key_at(cell).unwrap_or(0));
+    let challenges = there & !beyond;
+    // In raster order the incumbent has the smaller source: of equal keys it stays.
+    let wins = challenges & below(key, incumbent);
+    merge(back, cell, words, wins);
+    merge_word(winners, cell, *source, wins);
+    tally.moved += there & 1;
+    tally.lost += there & beyond & 1;
+    tally.collided += challenges & !empty(back.class_of(incumbent)) & 1;
+}
+
+/// Makes all cells empty and without a winner.
+pub(crate) fn clear<F: Format>(back: &mut Galpixmap<'_, F>, winners: &mut [u32]) {
     let record = *back.record();
     let cells = back.grid().cells() as usize;
     let mut empty: Words = Default::default();

@@ -1,0 +1,154 @@
+//! Feature `check`: each fast pass is run on copies, beside its reference, and what they leave behind is compared.
+//!
+//! Both fast forms are run, whichever the machine takes. A difference panics: this is for tests, on a host.
+
+extern crate std;
+
+use std::vec;
+use std::vec::Vec;
+
+use super::rolling::Rolling;
+use super::{narrow, wide};
+use crate::format::Format;
+use crate::format::rounding::Rounding;
+use crate::frame::fill::Around;
+use crate::frame::tally::Tally;
+use crate::frame::{self, Scratch, Settings, edge, reference};
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
+
+/// The words of a map, plane by plane.
+pub(crate) fn words<F: Format>(map: &Galpixmap<'_, F>) -> Vec<u32> {
+    map.planes().iter().take(map.record().words()).flat_map(|plane| plane.iter().copied()).collect()
+}
+
+/// Runs a pass over a copy of a map: what the map holds afterwards, and what the pass returned.
+pub(crate) fn on_copy<F: Format, R>(
+    map: &Galpixmap<'_, F>,
+    pass: impl FnOnce(&mut Galpixmap<'_, F>) -> R,
+) -> (Vec<u32>, R) {
+    let mut memory = words(map);
+    let mut copy = Galpixmap::over(*map.grid(), map.format(), &mut memory).expect("a copy has the words of its map");
+    let result = pass(&mut copy);
+    (words(&copy), result)
+}
+
+/// Compares the edge maps of all forms.
+pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &[u32]) {
+    let made = |mark: fn(&Galpixmap<'_, F>, u32, &mut [u32]) -> u32| {
+        let mut edges = edges.to_vec();
+        let count = mark(front, threshold, &mut edges);
+        (edges, count)
+    };
+    let expected = made(reference::edge::mark);
+    assert_eq!(made(wide::edge::mark), expected, "the wide form of the edge map");
+    assert_eq!(made(narrow::edge::mark), expected, "the narrow form of the edge map");
+}
+
+/// Propagation and resolution of a map: the same arguments as [`super::sweep`].
+type Sweep<F> = fn(&Galpixmap<'_, F>, &mut Galpixmap<'_, F>, &mut [u32], Rounding, u32) -> Tally;
+
+/// Compares what propagation and resolution of all forms leave in the cells that something reached.
+pub(crate) fn sweep<F: Format>(
+    front: &Galpixmap<'_, F>,
+    back: &Galpixmap<'_, F>,
+    winners: &[u32],
+    rounding: Rounding,
+    frame: u32,
+) {
+    if front.grid() != back.grid() {
+        return;
+    }
+    let made = |sweep: Sweep<F>| {
+        let mut winners = winners.to_vec();
+        on_copy(back, |back| {
+            let tally = sweep(front, back, &mut winners, rounding, frame);
+            let cells = (0..back.grid().cells()).map(|cell| {
+                let reached = back.class(cell) != Class::Empty;
+                let winner = winners.get(cell as usize).copied();
+                reached.then(|| (back.words_at(cell), winner))
+            });
+            (cells.collect::<Vec<_>>(), tally)
+        })
+        .1
+    };
+    let expected = made(reference::sweep);
+    assert_eq!(made(wide::sweep), expected, "the wide form of propagation and resolution");
+    assert_eq!(made(narrow::sweep), expected, "the narrow form of propagation and resolution");
+}
+
+/// A fill of a map.
+type Fill<'f, F> = dyn Fn(&mut Galpixmap<'_, F>, &mut Scratch<'_>, &mut Tally) + 'f;
+
+/// Compares what both forms of a fill leave behind.
+fn compare_fills<F: Format>(
+    back: &Galpixmap<'_, F>,
+    scratch: &mut Scratch<'_>,
+    tally: &Tally,
+    fills: [&Fill<'_, F>; 2],
+) {
+    let [expected, made] = fills.map(|fill| {
+        let (mut winners, mut edges, mut tally) = (scratch.winners.to_vec(), scratch.edges.to_vec(), *tally);
+        let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
+        let (words, ()) = on_copy(back, |back| fill(back, &mut scratch, &mut tally));
+        (words, winners, tally)
+    });
+    assert_eq!(made, expected, "the fast form of the fill");
+}
+
+/// Compares the fills of all holes.
+pub(crate) fn fill<F: Format>(
+    around: &impl Around,
+    back: &Galpixmap<'_, F>,
+    scratch: &mut Scratch<'_>,
+    settings: &Settings,
+    tally: &Tally,
+) {
+    compare_fills(
+        back,
+        scratch,
+        tally,
+        [&|back, scratch, tally| reference::fill(around, back, scratch, settings, tally), &|back, scratch, tally| {
+            super::fill::fill(around, back, scratch, settings, tally)
+        }],
+    );
+}
+
+/// Compares the fills of bullet holes alone.
+pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scratch<'_>, reach: u32, tally: &Tally) {
+    compare_fills(
+        back,
+        scratch,
+        tally,
+        [&|back, scratch, tally| reference::fill_bullets(back, scratch, reach, tally), &|back, scratch, tally| {
+            super::fill::fill_bullets(back, scratch, reach, tally)
+        }],
+    );
+}
+
+/// What a frame of two maps makes of the map of a [`Rolling`].
+pub(crate) struct Expected(Option<(Vec<u32>, Tally)>);
+
+/// Makes the next frame of a rolling map with two maps. Nothing is expected where the window lowers the reach.
+pub(crate) fn rolling<F: Format>(rolling: &Rolling<'_, F>, settings: &Settings) -> Expected {
+    let map = rolling.map();
+    let lent = rolling.scratch();
+    if settings.fill_mode.rounds(settings.reach) > rolling.rounds() {
+        return Expected(None);
+    }
+    let cells = if lent.winners.is_empty() { 0 } else { map.grid().cells() as usize };
+    let words = if lent.edges.is_empty() { 0 } else { edge::words(map.grid()) };
+    let (mut winners, mut edges) = (vec![0; cells], vec![0; words]);
+    let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
+    let made = |back: &mut Galpixmap<'_, F>| frame::make::<F, true>(map, back, &mut scratch, settings, rolling.frame());
+    Expected(Some(on_copy(map, made)))
+}
+
+impl Expected {
+    /// Compares it with what was made.
+    pub(crate) fn compare<F: Format>(self, map: &Galpixmap<'_, F>, tally: &Tally) {
+        if let Some(expected) = self.0 {
+            assert_eq!((words(map), *tally), expected, "a frame of one map and a window");
+        }
+    }
+}

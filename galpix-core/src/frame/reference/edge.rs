@@ -1,0 +1,151 @@
+//! The edge map, cell by cell, each key of a row read once.
+
+use crate::format::Format;
+use crate::format::record::Record;
+use crate::frame::edge::{laplacian, set};
+use crate::map::Galpixmap;
+
+/// Cells of a word of the edge map.
+pub(crate) const WORD: u32 = 32;
+
+/// No Laplacian of galpixels is larger, and none differs from it by more than a word holds.
+const LARGEST: u32 = (1 << 30) - 1;
+
+/// Returns the threshold as the kernel takes it.
+#[inline(always)]
+pub(crate) const fn limited(threshold: u32) -> i32 {
+    if threshold < LARGEST { threshold as i32 } else { LARGEST as i32 }
+}
+
+/// Marks the edges of a map, see [`crate::frame::edge::mark`].
+pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
+    edges.fill(0);
+    let (width, threshold) = (front.grid().width(), limited(threshold));
+    let mut count = 0;
+    let mut rows = front.grid().starts().iter().copied().peekable();
+    let mut above = None;
+    while let Some(row) = rows.next() {
+        // What lies beyond the map is like the row itself.
+        let (up, down) = (above.unwrap_or(row), rows.peek().copied().unwrap_or(row));
+        let mut x = 0;
+        while x < width {
+            let cells = (width - x).min(WORD);
+            count += mark_run(front, [row, up, down], (x, cells), threshold, edges);
+            x += cells;
+        }
+        above = Some(row);
+    }
+    count
+}
+
+/// Marks `cells` cells from column `x` on of a row, at most [`WORD`]; returns how many are on an edge. `rows` are the first
+/// cells of the row, of the one above and of the one below.
+#[inline(always)]
+pub(crate) fn mark_run<F: Format>(
+    front: &Galpixmap<'_, F>,
+    rows: [u32; 3],
+    (x, cells): (u32, u32),
+    threshold: i32,
+    edges: &mut [u32],
+) -> u32 {
+    let [first, up, down] = rows.map(|row| row + x);
+    // The first and the last column lack a neighbour: they are their own.
+    let z0 = front.key_at(first).unwrap_or_default();
+    let left = if x == 0 { z0 } else { front.key_at(first - 1).unwrap_or(z0) };
+    let ends = x + cells == front.grid().width();
+    let paired = cells - u32::from(ends);
+    let run = Run { right: first + 1, up, down };
+    let (mut flags, last) = run.flags(front, paired, threshold, left, z0);
+    if ends {
+        flags = flags >> 1 | run.next(paired).flag_of_last(front, threshold, last);
+    }
+    flags >>= WORD - cells;
+    set(edges, first, flags);
+    ones(flags)
+}
+
+/// Some cells of a row: where the neighbours of the first one are.
+#[derive(Clone, Copy)]
+struct Run {
+    right: u32,
+    up: u32,
+    down: u32,
+}
+
+impl Run {
+    const fn next(self, cells: u32) -> Self {
+        Self { right: self.right + cells, up: self.up + cells, down: self.down + cells }
+    }
+
+    /// The flags of `cells` cells, the last one in the highest bit, from the key left of them and that of the first one; and
+    /// these two for what comes next.
+    #[inline(never)]
+    fn flags<F: Format>(
+        self,
+        front: &Galpixmap<'_, F>,
+        cells: u32,
+        threshold: i32,
+        mut left: u32,
+        mut z0: u32,
+    ) -> (u32, [u32; 2]) {
+        let record = *front.record();
+        let count = cells as usize;
+        // Class, depth and its spill of each of the three rows, cut to one length.
+        let (class, (depth, spill)) = (record.class().words().0, record.depth().words());
+        let cut = |word: usize, start: u32| front.planes()[word].get(start as usize..)?.get(..count);
+        let rows = |start: u32| Some([cut(class, start)?, cut(depth, start)?, cut(spill, start)?]);
+        let (Some(rights), Some(ups), Some(downs)) = (rows(self.right), rows(self.up), rows(self.down)) else {
+            return (0, [left, z0]);
+        };
+        let mut flags = 0;
+        let mut lane = 0;
+        while lane < count {
+            let right = key::<F>(&record, &rights, lane);
+            let (up, down) = (key::<F>(&record, &ups, lane), key::<F>(&record, &downs, lane));
+            flags = flags >> 1 | flag(front, threshold, z0, [left, right, up, down]);
+            (left, z0) = (z0, right);
+            lane += 1;
+        }
+        (flags, [left, z0])
+    }
+
+    /// The flag of a cell that has nothing to its right.
+    fn flag_of_last<F: Format>(self, front: &Galpixmap<'_, F>, threshold: i32, [left, z0]: [u32; 2]) -> u32 {
+        let (up, down) = (front.key_at(self.up).unwrap_or(z0), front.key_at(self.down).unwrap_or(z0));
+        flag(front, threshold, z0, [left, z0, up, down])
+    }
+}
+
+/// Class and depth of a lane as one number, from its words with class, depth and what of it spills.
+#[inline(always)]
+fn key<F: Format>(record: &Record, [class, depth, spill]: &[&[u32]; 3], lane: usize) -> u32 {
+    match record.key_field() {
+        Some(key) if F::FIXED => key.extract().unsigned(class[lane], class[lane]),
+        _ => {
+            record.class().extract().unsigned(class[lane], class[lane]) << record.depth().bits
+                | record.depth().extract().unsigned(depth[lane], spill[lane])
+        }
+    }
+}
+
+/// The highest bit if a cell is on the edge: the sign of a number tells, no comparison has to become a bit.
+#[inline(always)]
+fn flag<F: Format>(front: &Galpixmap<'_, F>, threshold: i32, z0: u32, others: [u32; 4]) -> u32 {
+    let [left, right, up, down] = others;
+    let source = laplacian(z0 as i32, left as i32, right as i32, up as i32, down as i32);
+    let (below, above) = (threshold.wrapping_add(source), threshold.wrapping_sub(source));
+    // Class 0 is a galpixel, and the class stands above the depth.
+    let deepest = (1 << front.record().depth().bits) - 1;
+    let classes = deepest - (z0 | left | right | up | down) as i32;
+    (below | above | classes) as u32 & 1 << (WORD - 1)
+}
+
+/// Returns how many bits are set. Not by `count_ones`, which LLVM lowers to a multiplication where there is no such
+/// instruction.
+pub(crate) const fn ones(bits: u32) -> u32 {
+    let pairs = bits - (bits >> 1 & 0x5555_5555);
+    let fours = (pairs & 0x3333_3333) + (pairs >> 2 & 0x3333_3333);
+    let eights = (fours + (fours >> 4)) & 0x0f0f_0f0f;
+    let sixteens = eights + (eights >> 8);
+    (sixteens + (sixteens >> 16)) & 63
+}
