@@ -3,6 +3,7 @@
 # after one that fails, and ends with one line a step. Ends with 1 if a step failed.
 #
 #   ./test.sh             all steps
+#   ./test.sh quick       format, width, clippy, unit tests and golden hashes: what to run between two edits
 #   ./test.sh tests docs  only these
 #   ./test.sh --list      their names
 set -euo pipefail
@@ -12,7 +13,8 @@ export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format clippy docs tests no-std codegen constant-work model proofs benches msrv firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package firmware)
+QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
 
@@ -69,18 +71,49 @@ step_format() {
     bash -n tests/proofs/run.sh
 }
 
+# Comments and text wrap at 120 columns: rustfmt does not look at them. Tables, pictures, links and code blocks do not count.
+wide_lines() {
+    case "$1" in
+        *.md) awk '/^ *```/ { fence = !fence } !fence && !/^ *[|!]/ && !/https?:/' "$1" ;;
+        *.rs) grep -E '^ *//' "$1" ;;
+        *) grep -E '^ *#' "$1" ;;
+    esac | LC_ALL=C.UTF-8 grep -E '^.{121,}$'
+}
+
+step_width() {
+    local file lines status=0
+    while IFS= read -r file; do
+        lines="$(wide_lines "$file" || true)"
+        [ -z "$lines" ] || { printf '%s, beyond 120 columns:\n%s\n' "$file" "$lines"; status=1; }
+    done < <(git ls-files '*.rs' '*.md' '*.sh' '*.py' '*.toml')
+    return "$status"
+}
+
 step_clippy() {
     cargo clippy --version >/dev/null 2>&1 || { skip "clippy is not installed"; return; }
     cargo clippy --locked --workspace --all-targets --all-features -- -D warnings
 }
 
+# Once, as docs.rs builds the core, and the other crates with what they have by default.
 step_docs() {
-    RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --all-features --no-deps --document-private-items
+    RUSTDOCFLAGS="-D warnings" cargo doc --locked --workspace --no-deps
+    RUSTDOCFLAGS="-D warnings" cargo doc --locked -p galpix-core --features embedded-graphics,defmt --no-deps
 }
 
-# Unit tests, tests across the crates and doctests. The machine code has a step of its own.
+# Unit tests, tests across the crates and doctests, with every fast pass compared with its reference (feature `check`). The
+# machine code has a step of its own.
 step_tests() {
-    cargo test --locked --workspace --all-features -- --skip codegen_
+    cargo test --locked --workspace --all-features -- --skip codegen
+}
+
+# For `quick`: the same build as in `tests`.
+step_unit() {
+    cargo test --locked --workspace --all-features --lib
+}
+
+# For `quick`: no bit of any golden vector has changed.
+step_golden() {
+    cargo test --locked -p galpix-golden --test golden
 }
 
 # The core as firmware takes it: by default, with each feature alone, and with all.
@@ -100,8 +133,8 @@ step_codegen() {
     local missing
     missing="$(absent "${BARE_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    # The same features as in the step before: else all is built anew.
-    cargo test --locked --workspace --all-features --test codegen
+    # The same features as in the step `tests`: else all is built anew.
+    cargo test --locked --workspace --all-features --test all -- codegen
 }
 
 # The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md alone.
@@ -124,25 +157,38 @@ step_proofs() {
 }
 
 step_benches() {
-    cargo bench --locked -p galpix-core --no-run
+    cargo bench --locked -p galpix-bench --no-run
     # Small and quick: that it runs and ends, not how fast it is.
-    cargo run --locked --profile bench -p galpix-core --example ratios -- 64x64 1
+    cargo run --locked --profile bench -p galpix-bench --bin ratios -- 64x64 1
 }
 
-# The instructions of a frame, counted: with constant work they must not depend on the picture.
-step_constant-work() {
+# The instructions of a frame, counted: in constant time they must not depend on the picture.
+step_constant-time() {
     command -v valgrind >/dev/null || { skip "valgrind is not installed"; return; }
-    # The same profile and features as in the step before.
-    cargo run --locked --profile bench -p galpix-core --example constant_work -- 96x64
+    # The same profile as in the step `benches`.
+    cargo run --locked --profile bench -p galpix-bench --bin constant_time -- 96x64
 }
 
 # Clippy has already compared every call into the standard library with rust-version; the language itself it does not know.
 step_msrv() {
-    local least toolchain
+    local least
     least="$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)"
-    toolchain="$(rustup toolchain list 2>/dev/null | sed -n "s/^\($least[.0-9]*-[^ ]*\).*/\1/p" | head -n 1)"
-    [ -n "$toolchain" ] || { skip "Rust $least, the rust-version, is not installed here; $(rustc --version) is"; return; }
-    CARGO_TARGET_DIR=target/msrv cargo "+$toolchain" check --locked --workspace --all-features
+    if ! rustup toolchain list 2>/dev/null | grep -q "^$least"; then
+        timeout 300 rustup toolchain install "$least.0" --profile minimal ||
+            { skip "Rust $least, the rust-version, cannot be installed here; $(rustc --version) is"; return; }
+    fi
+    CARGO_TARGET_DIR=target/msrv cargo "+$(rustup toolchain list | sed -n "s/^\($least[.0-9]*\).*/\1/p" | head -n 1)" \
+        check --locked --workspace --all-features
+}
+
+# What is published: the package is complete and builds by itself. Licences and bans where cargo-deny is installed.
+step_package() {
+    cargo publish --locked --dry-run --allow-dirty -p galpix-core
+    if cargo deny --version >/dev/null 2>&1; then
+        cargo deny --offline check bans licenses sources
+    else
+        skip "the package is complete, but cargo-deny is not installed: cargo install cargo-deny"
+    fi
 }
 
 # The firmware in the emulator: build for each board, run, compare with the simulator.
@@ -185,8 +231,9 @@ main() {
         return
     fi
     [ "$#" -gt 0 ] || chosen=("${STEPS[@]}")
+    [ "${1:-}" != quick ] || chosen=("${QUICK[@]}")
     for name in "${chosen[@]}"; do
-        [[ " ${STEPS[*]} " == *" $name "* ]] || { echo "there is no step \"$name\": ./test.sh --list names them" >&2; exit 2; }
+        [[ " ${STEPS[*]} ${QUICK[*]} " == *" $name "* ]] || { echo "there is no step \"$name\": ./test.sh --list names them" >&2; exit 2; }
     done
     install_missing
     for name in "${chosen[@]}"; do run_step "$name"; done

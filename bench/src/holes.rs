@@ -1,7 +1,7 @@
 //! A picture with the holes that a step of the scene leaves.
 
-use galpix_core::stages::{fill, mark, sweep, threshold_for_depth};
-use galpix_core::{Class, FillMode, Rounding, Static, Tally};
+use galpix_core::stages::{fill, mark, sweep};
+use galpix_core::{Class, Static, Tally};
 
 use crate::scene::{Motion, samples};
 use crate::{Full, Laid, Maps};
@@ -48,13 +48,14 @@ impl Picture {
 /// Returns the scene after a step.
 pub fn picture(width: u32, height: u32, holes: Holes) -> Picture {
     let mut maps = Maps::new(width, height, Static::<Full>::new(), &samples(width, height, Motion::Scene));
-    let Laid { front, mut back, scratch } = maps.lay();
+    let settings = *maps.settings();
+    let Laid { front, mut back, mut scratch } = maps.lay();
     let depth_bits = u32::from(front.record().depth().bits);
-    let threshold = threshold_for_depth(depth_bits);
+    let threshold = settings.edge_threshold;
     mark(&front, threshold, scratch.edges);
-    sweep(&front, &mut back, scratch.winners, Rounding::default(), 1);
+    sweep(&front, &mut back, scratch.winners, settings.rounding, 1);
     if holes == Holes::Slivers {
-        fill(&front, &mut back, scratch.winners, scratch.edges, FillMode::Extend, 1, &mut Tally::default());
+        fill(&front, &mut back, &mut scratch, &settings, &mut Tally::default());
     }
     let mut picture =
         Picture { colours: Vec::new(), known: vec![0; scratch.edges.len()], depths: Vec::new(), threshold };

@@ -183,9 +183,9 @@ impl<F: Format> Maps<F> {
     }
 
     fn fill(&mut self) {
-        let (Settings { fill_mode, reach, .. }, mut tally) = (self.settings, Tally::default());
-        let Laid { front, mut back, scratch } = self.lay();
-        fill(&front, &mut back, scratch.winners, scratch.edges, fill_mode, reach, &mut tally);
+        let (settings, mut tally) = (self.settings, Tally::default());
+        let Laid { front, mut back, mut scratch } = self.lay();
+        fill(&front, &mut back, &mut scratch, &settings, &mut tally);
         black_box(tally);
     }
 

@@ -293,12 +293,7 @@ pub(crate) fn settings(record: &Record, depth_kind: DepthKind, request: &Request
     };
     let edge_threshold =
         request.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
-    Settings {
-        rounding: request.rounding,
-        fill_mode: request.fill.rung(),
-        edge_threshold,
-        reach: request.reach,
-    }
+    Settings { rounding: request.rounding, fill_mode: request.fill.rung(), edge_threshold, reach: request.reach }
 }
 
 fn report(frame: &Frame<'_>, position: Option<PositionReport>, truth: Option<TruthReport>) -> FrameReport {

@@ -160,13 +160,7 @@ pub fn has(source: &Source, kind: Kind) -> bool {
 /// nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
-pub fn carry(
-    source: &Source,
-    update: &Update,
-    way: Way,
-    format: Dynamic,
-    frames: u32,
-) -> Result<Carried, EngineError> {
+pub fn carry(source: &Source, update: &Update, way: Way, format: Dynamic, frames: u32) -> Result<Carried, EngineError> {
     let layers = offered::offered(source, way.kind)?;
     let culling = if way.culled && !layers.is_empty() { Some(culling(update, format, frames)?) } else { None };
     Ok(match way.kind {

@@ -32,4 +32,3 @@ pub mod tradeoff;
 pub mod update;
 
 pub use galpix_vectors as vectors;
-

@@ -5,7 +5,6 @@ use galpix_core::{Bits, BudgetError, Demand, Dynamic, Layout};
 
 use crate::layouts::{DEEP, FLAT565_WITHOUT_DEPTH, TINY_PLANE};
 
-
 const fn component(component: Result<Component, BudgetError>) -> Component {
     match component {
         Ok(component) => component,

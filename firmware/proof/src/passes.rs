@@ -135,7 +135,7 @@ fn proof_fill<F: Format>(
     settings: &Settings,
     tally: &mut Tally,
 ) {
-    stages::fill(front, back, scratch.winners, scratch.edges, settings.fill_mode, settings.reach, tally);
+    stages::fill(front, back, scratch, settings, tally);
 }
 
 #[inline(never)]

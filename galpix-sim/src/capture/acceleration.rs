@@ -1,13 +1,10 @@
 //! Accelerations of captures: chained from a second flow, left out, limited, or smoothed.
 
-use std::path::Path;
-
-use super::Census;
 use super::camera::{Distance, Track};
 use super::error::CaptureError;
-use super::manifest::{Background, Flow, Manifest};
-use super::raster;
+use super::manifest::{Background, Flow};
 use super::source::{Size, Source};
+use super::{Census, Opened, raster};
 
 /// What becomes of a capture's accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,11 +28,8 @@ pub enum AccelerationPolicy {
 /// in cells that start empty, and in the background, whose motion does not come from the flow.
 pub(super) fn chain(
     motion: &mut [Option<Track>],
-    manifest: &Manifest,
+    Opened { manifest, folder, size, distances }: Opened<'_>,
     flow: &Flow,
-    distances: &Option<Vec<Distance>>,
-    folder: &Path,
-    size: Size,
     census: &mut Census,
 ) -> Result<(), CaptureError> {
     let next = raster::flow(&Source::open(&folder.join(&flow.file))?, size)?;

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::camera::{Distance, View as Between};
 use super::error::CaptureError;
-use super::manifest::{Acceleration, Camera, Depth, Hidden, Manifest, Motion, View, Views};
+use super::manifest::{Acceleration, Camera, Depth, Hidden, Motion, View, Views};
 use super::samples::{self, Unit};
 use super::source::{Size, Source};
-use super::{Census, ImportOptions, acceleration, colour, depth, motion, poses};
+use super::{Census, ImportOptions, Opened, acceleration, colour, depth, motion, poses};
 use crate::picture::Picture;
 use crate::update::{Known, Update};
 
@@ -17,14 +17,12 @@ const SAME_SURFACE: f64 = 0.05;
 /// The hidden samples as an update over the same cells, whose depths are normalised as the first layer's are; nothing if there are none in
 /// the manifest. What is no farther than the first layer is not hidden, and left out.
 pub(super) fn read(
-    manifest: &Manifest,
-    folder: &Path,
-    size: Size,
+    opened: Opened<'_>,
     unit: Unit,
-    first: &Option<Vec<Distance>>,
     options: &ImportOptions,
     census: &mut Census,
 ) -> Result<Option<Update>, CaptureError> {
+    let Opened { manifest, folder, size, distances: first } = opened;
     let Some(hidden) = &manifest.update.hidden else { return Ok(None) };
     let mut own = Census::default();
     // All that is not about the second layer is as it is with the first.
@@ -40,11 +38,11 @@ pub(super) fn read(
             (picture, depth::read(&layer.depth, folder, size)?)
         }
         Hidden::Views(views) => {
-            let (picture, distances) = seen_from_elsewhere(manifest, views, folder, size, unit, first)?;
+            let (picture, distances) = seen_from_elsewhere(opened, views, unit)?;
             (picture, Some(distances))
         }
     };
-    let mut tracks = motion::read(&behind, folder, size, &distances, &mut own)?;
+    let mut tracks = motion::read(Opened { manifest: &behind, distances: &distances, ..opened }, &mut own)?;
     if matches!(manifest.update.acceleration, Some(Acceleration::No)) {
         acceleration::leave_out(&mut tracks);
     }
@@ -76,12 +74,9 @@ pub(super) fn read(
 /// one surface, so that no cracks open where the view is coarser. A sample is put into the middle of the cell that it falls into, at most half a
 /// pixel beside its place.
 fn seen_from_elsewhere(
-    manifest: &Manifest,
+    Opened { manifest, folder, size, distances: first }: Opened<'_>,
     views: &Views,
-    folder: &Path,
-    size: Size,
     unit: Unit,
-    first: &Option<Vec<Distance>>,
 ) -> Result<(Picture, Vec<Distance>), CaptureError> {
     let mut picture = Picture::filled(size.width, size.height, [0; 3]);
     let mut nearest = vec![Distance::Unknown; size.cells()];

@@ -38,6 +38,7 @@ pub use acceleration::AccelerationPolicy;
 pub use error::CaptureError;
 
 use crate::update::{Truth, Update};
+use camera::Distance;
 use manifest::Manifest;
 use source::{Size, Source};
 
@@ -87,6 +88,16 @@ pub struct Capture {
     pub census: Census,
 }
 
+/// A capture while it is read: its manifest, where its files are, and what is known of its first layer.
+#[derive(Clone, Copy)]
+struct Opened<'c> {
+    manifest: &'c Manifest,
+    folder: &'c Path,
+    size: Size,
+    /// Of each cell; nothing if there is no depth at all.
+    distances: &'c Option<Vec<Distance>>,
+}
+
 /// Reads a capture from its manifest, or from the folder that holds a `capture.toml`.
 ///
 /// *Errors:* anything that cannot be read, does not fit together, or is not named in the format; see the module's text.
@@ -101,9 +112,10 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
 
     let mut census = Census::default();
     let distances = depth::read(&update.depth, folder, size)?;
-    let mut motion = motion::read(&manifest, folder, size, &distances, &mut census)?;
+    let opened = Opened { manifest: &manifest, folder, size, distances: &distances };
+    let mut motion = motion::read(opened, &mut census)?;
     if let Some(manifest::Acceleration::NextFlow(flow)) = &update.acceleration {
-        acceleration::chain(&mut motion, &manifest, flow, &distances, folder, size, &mut census)?;
+        acceleration::chain(&mut motion, opened, flow, &mut census)?;
     }
     if matches!(update.acceleration, Some(manifest::Acceleration::No)) {
         acceleration::leave_out(&mut motion);
@@ -114,7 +126,7 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
         Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census)?),
         None => None,
     };
-    let hidden = hidden::read(&manifest, folder, size, unit, &distances, options, &mut census)?;
+    let hidden = hidden::read(opened, unit, options, &mut census)?;
     let mut update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
     update.overlay = overlay;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));

@@ -2,20 +2,16 @@
 
 use std::path::Path;
 
-use super::Census;
 use super::camera::{self, Distance, Track};
 use super::error::CaptureError;
 use super::exr_planes::{Planes, under};
-use super::manifest::{Background, Camera, Depth, DisparityMotion, Flow, Manifest, Motion, Passes};
+use super::manifest::{Background, Camera, Depth, DisparityMotion, Flow, Motion, Passes};
 use super::source::{Size, Source};
-use super::{mixed, poses, raster};
+use super::{Census, Opened, mixed, poses, raster};
 
 /// The motion of each cell, per display frame; `None` where it is unknown or the cell starts empty.
 pub(super) fn read(
-    manifest: &Manifest,
-    folder: &Path,
-    size: Size,
-    distances: &Option<Vec<Distance>>,
+    Opened { manifest, folder, size, distances }: Opened<'_>,
     census: &mut Census,
 ) -> Result<Vec<Option<Track>>, CaptureError> {
     let update = &manifest.update;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CliError, print, say};
+use crate::report::write_atomically;
 use crate::vectors;
 
 /// Arguments of `galpix vectors`.
@@ -22,8 +23,13 @@ impl Vectors {
     /// Makes the cases and writes them.
     pub fn run(&self) -> Result<(), CliError> {
         let cases = vectors::cases(self.seed).map_err(|error| CliError::Failed(error.to_string()))?;
-        let manifest = vectors::write(&self.out, self.seed, &cases)
-            .map_err(|(path, error)| CliError::unwritable(&path, &error))?;
+        let save = |path: &str, text: &str| {
+            let path = self.out.join(path);
+            let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+            let written = folder.and_then(|()| write_atomically(&path, text.as_bytes()));
+            written.map_err(|error| CliError::unwritable(&path, &error))
+        };
+        let manifest = vectors::write(self.seed, &cases, save)?;
         let files: usize = manifest.cases.iter().map(|case| case.files.len()).sum();
         let frames: usize = manifest.cases.iter().map(|case| case.frames.len()).sum();
         say(&format!("{} cases, {frames} frames, {files} files", manifest.cases.len()));

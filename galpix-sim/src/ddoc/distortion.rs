@@ -1,7 +1,6 @@
 //! The core's distortion map with memory of its own, for places in floating point.
 
-use galpix_core::ddoc::splat::Splat;
-use galpix_core::ddoc::{self, DistortionMap, ONE, Settings, Tally};
+use galpix_core::ddoc::{self, DistortionMap, ONE, Settings, Splat, Tally};
 use galpix_core::{Grid, Margin, SetupError};
 
 /// Bits of a depth word.

@@ -1,7 +1,7 @@
 //! The DDOC image of a built-in scene, as galpixels: what an update would carry beside the plain picture.
 
-use galpix_core::ddoc::{Settings, Tally};
 use galpix_core::SetupError;
+use galpix_core::ddoc::{Settings, Tally};
 
 use super::distortion::{self, Memory, depth_word};
 use super::raster::{Pin, Raster};

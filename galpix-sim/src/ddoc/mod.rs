@@ -24,8 +24,8 @@ pub mod worlds;
 
 use std::path::Path;
 
-use galpix_core::ddoc::{MOST_RADIUS, SYMMETRIC, Settings};
 use galpix_core::SetupError;
+use galpix_core::ddoc::{MOST_RADIUS, SYMMETRIC, Settings};
 
 use self::import::ImportError;
 use self::missing::Missing;

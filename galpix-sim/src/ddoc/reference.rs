@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use galpix_core::ddoc::{DistortionMap, Settings, Tally};
 use galpix_core::SetupError;
+use galpix_core::ddoc::{DistortionMap, Settings, Tally};
 
 use super::distortion::{self, Memory, depth_word};
 use super::raster::{Pin, Raster};

@@ -47,12 +47,7 @@ impl Origins {
     }
 
     /// Notes what is shown; `seen` are the cells of the display.
-    pub fn look<'p>(
-        &mut self,
-        show: &impl Show<'p, Dynamic>,
-        beside: &[Beside<'_>],
-        seen: impl Iterator<Item = u32>,
-    ) {
+    pub fn look<'p>(&mut self, show: &impl Show<'p, Dynamic>, beside: &[Beside<'_>], seen: impl Iterator<Item = u32>) {
         let shown = (0..self.cells as u32).map(|cell| {
             if show.front().class(cell) != Class::Galpixel {
                 return NO_ORIGIN;

@@ -67,11 +67,12 @@ pub fn study(
     }
     let weights: Vec<Weight> = each(&holes).map(|(before, now)| Weight::of(before, now)).collect();
     let truths: Vec<TruthFigures> = each(&holes).map(|(before, now)| figures::truth(before, now)).collect();
+    let judged = Judged { source, plan, holes: &holes, truths: &truths, export };
     let shown: Vec<Shown> = plan
         .cases
         .par_iter()
         .map(|case| {
-            let shown = show(source, plan, case, &holes, &truths, export, largest.frame);
+            let shown = judged.show(case, largest.frame);
             done();
             shown
         })
@@ -125,32 +126,36 @@ struct Shown {
     largest: Option<Picture>,
 }
 
-fn show(
-    source: &Source,
-    plan: &Plan,
-    case: &Case,
-    holes: &[Holes],
-    truths: &[TruthFigures],
-    export: Option<&Export>,
-    wanted: u32,
-) -> Result<Shown, FillsError> {
-    let request = Request { fill: case.fill, perceptual: false, ..plan.request };
-    let mut shown = Shown { figures: Vec::with_capacity(holes.len()), largest: None };
-    let mut written = Ok(());
-    let mut last: Option<(&Holes, Picture)> = None;
-    let mut frames = holes.iter().zip(truths).peekable();
-    experiment::run(source, &request, |frame| {
-        let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
-        let before = last.as_ref().map(|(before, picture)| (*before, picture));
-        shown.figures.push(figures::of(holes, frame.picture, before, truth));
-        if let (Some(export), Ok(())) = (export, &written) {
-            written = export.filled(source, holes, case.name, frame.picture);
-        }
-        if holes.frame == wanted {
-            shown.largest = Some(frame.picture.clone());
-        }
-        last = Some((holes, frame.picture.clone()));
-    })?;
-    written?;
-    Ok(shown)
+/// What fills are judged by.
+struct Judged<'s> {
+    source: &'s Source,
+    plan: &'s Plan,
+    holes: &'s [Holes],
+    truths: &'s [TruthFigures],
+    export: Option<&'s Export>,
+}
+
+impl Judged<'_> {
+    /// Runs a fill; keeps its picture of frame `wanted`.
+    fn show(&self, case: &Case, wanted: u32) -> Result<Shown, FillsError> {
+        let request = Request { fill: case.fill, perceptual: false, ..self.plan.request };
+        let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), largest: None };
+        let mut written = Ok(());
+        let mut last: Option<(&Holes, Picture)> = None;
+        let mut frames = self.holes.iter().zip(self.truths).peekable();
+        experiment::run(self.source, &request, |frame| {
+            let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
+            let before = last.as_ref().map(|(before, picture)| (*before, picture));
+            shown.figures.push(figures::of(holes, frame.picture, before, truth));
+            if let (Some(export), Ok(())) = (self.export, &written) {
+                written = export.filled(self.source, holes, case.name, frame.picture);
+            }
+            if holes.frame == wanted {
+                shown.largest = Some(frame.picture.clone());
+            }
+            last = Some((holes, frame.picture.clone()));
+        })?;
+        written?;
+        Ok(shown)
+    }
 }

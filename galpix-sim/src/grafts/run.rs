@@ -3,8 +3,8 @@
 use galpix_core::layers::{Layer, Layers, composite_words};
 use galpix_core::objects::{Limits, Object, ObjectsTally, Places, Queue};
 use galpix_core::{
-    Bits, Class, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Scratch, Settings,
-    SetupError, scan_out, stages,
+    Bits, Class, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Scratch, Settings, SetupError,
+    scan_out, stages,
 };
 
 use super::report::{GraftedReport, RefusedReport, WayReport};
@@ -150,11 +150,11 @@ impl<'w> Run<'w> {
         let mut memory: Vec<LayerMemory> = (0..hidden).map(|_| LayerMemory::new(&grid, words)).collect();
         let (front, back, scratch, _) = base.maps(grid, format)?;
         let base = Controller::new(front, back, scratch)?;
-        let layer = |memory: &'_ mut LayerMemory| {
+        let mut hidden = Vec::with_capacity(memory.len());
+        for memory in &mut memory {
             let (front, back, scratch, seats) = memory.maps(grid, format)?;
-            Layer::new(front, back, scratch, seats)
-        };
-        let mut hidden = memory.iter_mut().map(layer).collect::<Result<Vec<_>, _>>()?;
+            hidden.push(Layer::new(front, back, scratch, seats)?);
+        }
         let mut maps = Layers::new(base, &mut hidden)?;
         let depth_bits = u32::from(maps.front().record().depth().bits);
         let fill_mode = if self.carry == Carry::Colours { FillMode::Extend } else { FillMode::None };
@@ -298,7 +298,8 @@ impl<'w> Run<'w> {
     fn compare_picture(&mut self, map: &Galpixmap<'_, Dynamic>, frame: u32) {
         let (world, colour) = (self.world, map.record().colour_format());
         let (width, height) = (world.scene.width(), world.scene.height());
-        let pixels = (0..height as u32).flat_map(|y| scan_out::row(map, y)).map(|word| colour.to_rgb888(word)).collect();
+        let pixels =
+            (0..height as u32).flat_map(|y| scan_out::row(map, y)).map(|word| colour.to_rgb888(word)).collect();
         let mut picture = Picture { width, height, pixels };
         if let Some(overlay) = world.scene.overlay() {
             picture = overlay.over(picture);

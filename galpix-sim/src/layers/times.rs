@@ -62,10 +62,8 @@ pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, Ex
     let settings = experiment::settings(format.record(), update.depth_kind, &plan.request);
     let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
     let bytes = 4 * Galpixmap::words(&grid(update, &mut starts).map_err(EngineError::from)?, format);
-    let carried: Vec<Carried> = ways
-        .iter()
-        .map(|&way| experiment::carried(source, update, way, format, frames))
-        .collect::<Result<_, _>>()?;
+    let carried: Vec<Carried> =
+        ways.iter().map(|&way| experiment::carried(source, update, way, format, frames)).collect::<Result<_, _>>()?;
     let makers: Vec<Maker<'_>> = carried
         .iter()
         .map(|carried| {

@@ -29,7 +29,7 @@ fn quality(story: &Story) -> String {
     if lines.iter().any(capped) {
         remark += " Identical pictures are drawn at the upper end.";
     }
-    figure(story, "PSNR", "dB", &remark, "No truth to compare with.", lines, false)
+    figure(story, ["PSNR", "dB"], [&remark, "No truth to compare with."], lines, false)
 }
 
 fn position(story: &Story) -> String {
@@ -53,7 +53,7 @@ fn position(story: &Story) -> String {
     if !story.rows.iter().any(|row| measured(row).is_some_and(f64::is_finite)) {
         remark = format!("{nothing} {remark}");
     }
-    figure(story, "Position error", "px", &remark, nothing, lines, true)
+    figure(story, ["Position error", "px"], [&remark, nothing], lines, true)
 }
 
 fn tallies(story: &Story) -> String {
@@ -64,15 +64,14 @@ fn tallies(story: &Story) -> String {
         line(story, "filled", Ink::Filled, Stroke::Solid, |row| Some(row.filled as f64)),
     ];
     let remark = "What the passes counted in each frame.";
-    figure(story, "Tallies", "cells", remark, "No frame was counted.", lines, true)
+    figure(story, ["Tallies", "cells"], [remark, "No frame was counted."], lines, true)
 }
 
+/// A figure with its title and unit, and what is said under it, or instead where there is nothing to draw.
 fn figure(
     story: &Story,
-    title: &str,
-    unit: &str,
-    remark: &str,
-    nothing: &str,
+    [title, unit]: [&str; 2],
+    [remark, nothing]: [&str; 2],
     mut lines: Vec<Line>,
     from_zero: bool,
 ) -> String {

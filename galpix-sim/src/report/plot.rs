@@ -66,8 +66,7 @@ pub fn svg(plot: &Plot) -> Option<String> {
     let decimals = decimals(values.end - values.start);
     let label = move |value: &f64| figure(Some(*value), decimals);
     let end = values.end;
-    let mut drawing = String::new();
-    draw(plot, frames, values, &label, |value| value.min(end), &mut drawing).ok()?;
+    let drawing = draw(plot, frames, values, &label, |value| value.min(end)).ok()?;
     element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
@@ -78,8 +77,7 @@ pub fn svg_log(plot: &Plot) -> Option<String> {
     let (lowest, highest) = decades(plot)?;
     let (start, end) = (f64::from(lowest), f64::from(highest));
     let inside = |value: f64| if value > 0.0 { value.log10().clamp(start, end) } else { start };
-    let mut drawing = String::new();
-    draw(plot, frames, Decades { lowest, highest }, &|power| power_of_ten(*power), inside, &mut drawing).ok()?;
+    let drawing = draw(plot, frames, Decades { lowest, highest }, &|power| power_of_ten(*power), inside).ok()?;
     element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
@@ -158,21 +156,19 @@ fn value_range(plot: &Plot) -> Option<std::ops::Range<f64>> {
     (range.start.is_finite() && range.end.is_finite()).then_some(range)
 }
 
-type Drawn = Result<(), Box<dyn std::error::Error>>;
-
 fn draw<Y>(
     plot: &Plot,
     frames: std::ops::Range<u32>,
     axis: Y,
     label: &dyn Fn(&f64) -> String,
     inside: impl Fn(f64) -> f64,
-    drawing: &mut String,
-) -> Drawn
+) -> Result<String, Box<dyn std::error::Error>>
 where
     Y: AsRangedCoord<Value = f64>,
     Y::CoordDescType: ValueFormatter<f64>,
 {
-    let root = SVGBackend::with_string(drawing, (WIDTH * FINE, HEIGHT * FINE)).into_drawing_area();
+    let mut drawing = String::new();
+    let root = SVGBackend::with_string(&mut drawing, (WIDTH * FINE, HEIGHT * FINE)).into_drawing_area();
     let mut chart = ChartBuilder::on(&root)
         .margin_top(10 * FINE)
         .margin_right(14 * FINE)
@@ -209,7 +205,8 @@ where
     }
     root.present()?;
     drop(chart);
-    Ok(())
+    drop(root);
+    Ok(drawing)
 }
 
 /// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5 times

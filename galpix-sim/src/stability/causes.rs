@@ -169,98 +169,103 @@ fn shown(state: State, ranges: &Ranges) -> Px {
 /// Follows a path with something that moves it.
 pub fn follow(path: &Path, setting: &Setting, rounding: Rounding, mover: &mut dyn Mover) -> Followed {
     let ranges = setting.ranges(path.component);
-    let mut followed = Followed { aligned: path.counter == 0, ..Followed::default() };
+    let followed = Followed { aligned: path.counter == 0, ..Followed::default() };
+    let mut follower = Follower { path, setting, ranges, followed };
     let mut counter = path.counter;
-    let (mut reference, mut state, mut floats) = load(path, setting, &ranges, 0, mover, &mut followed);
-    push(&mut followed, path, 0, &reference, state, &ranges, floats);
+    let mut at = follower.load(0, mover);
+    follower.push(0, &at);
     for frame in 1..=path.frames {
         let Some(moved) = mover.step(counter) else {
-            followed.found(frame, "the galpixel is nowhere");
-            return followed;
+            follower.followed.found(frame, "the galpixel is nowhere");
+            break;
         };
         let threshold = rounding.threshold(counter, ranges.scale.down);
         counter = counter.wrapping_add(1);
-        let expected = reference.step(&ranges, threshold, state);
-        check(&mut followed, frame, state, moved, &ranges, expected);
-        followed.clamped = followed.clamped.saturating_add(moved.clamped);
-        state = moved.state;
-        floats.0.step();
-        floats.1.step();
-        push(&mut followed, path, frame, &reference, state, &ranges, floats);
+        let expected = at.reference.step(&ranges, threshold, at.state);
+        follower.check(frame, at.state, moved, expected);
+        at.state = moved.state;
+        at.floats.0.step();
+        at.floats.1.step();
+        follower.push(frame, &at);
         if path.every.is_some_and(|every| frame % every.max(1) == 0) && frame < path.frames {
-            (reference, state, floats) = load(path, setting, &ranges, frame, mover, &mut followed);
+            at = follower.load(frame, mover);
             // A searched table is aligned with the updates, as `Controller::set_frame` advises.
             counter = if rounding == Rounding::Searched { 0 } else { counter };
         }
     }
-    followed
+    follower.followed
 }
 
-type Loaded = (Reference, State, (Float<f32>, Float<f64>));
-
-fn load(
-    path: &Path,
-    setting: &Setting,
-    ranges: &Ranges,
-    frame: u32,
-    mover: &mut dyn Mover,
-    followed: &mut Followed,
-) -> Loaded {
-    let given = path.given(setting, frame);
-    let (reference, clamped) = Reference::load(given.exact, ranges);
-    let moved = mover.load(&given);
-    let state = moved.state;
-    if [state.position, state.velocity, state.acceleration] != reference.raw {
-        followed.found(frame, "a stored field is not the nearest that it can hold");
-    }
-    if moved.clamped != clamped {
-        followed.found(frame, "a clamped field was not counted");
-    }
-    followed.clamped = followed.clamped.saturating_add(moved.clamped);
-    (reference, state, (Float::<f32>::load(given.exact), Float::<f64>::load(given.exact)))
-}
-
-fn push(
-    followed: &mut Followed,
-    path: &Path,
-    frame: u32,
-    reference: &Reference,
+/// A galpixel on its path, exactly, in the engine and in floats.
+struct Along {
+    reference: Reference,
     state: State,
-    ranges: &Ranges,
     floats: (Float<f32>, Float<f64>),
-) {
-    let place = path.place(frame);
-    let [r, v, a] = reference.exact;
-    let exact = r + v.times(reference.since) + a.accelerated(reference.since);
-    followed.rows.push(Row {
-        frame,
-        since: reference.since,
-        place,
-        shown: shown(state, ranges),
-        causes: reference.causes(place, state, ranges),
-        saturated: reference.saturated,
-        steady: reference.raw[2] == 0,
-        f32_px: floats.0.off_px(exact),
-        f64_px: floats.1.off_px(exact),
-    });
 }
 
-/// What a step may never do, whatever the arithmetic: wrap, leave a field, or clamp and not count it.
-fn check(followed: &mut Followed, frame: u32, before: State, moved: Moved, ranges: &Ranges, clamped: u32) {
-    let (scale, state) = (&ranges.scale, moved.state);
-    // 2v + a of the largest fields, in the position's last bits and one more for what was rounded.
-    let lift = |steps: i64| ((steps << scale.up) >> scale.down) + 1;
-    let most = lift(2 * (ranges.velocity_top + 1) + ((ranges.acceleration_top + 1) << scale.acceleration_up));
-    if (state.position - before.position).abs() > most {
-        followed.found(frame, "the position jumped farther than the largest velocity allows: it wrapped");
+/// A path, and what was found on it.
+struct Follower<'p> {
+    path: &'p Path,
+    setting: &'p Setting,
+    ranges: Ranges,
+    followed: Followed,
+}
+
+impl Follower<'_> {
+    /// Stores what an update hands over at a frame.
+    fn load(&mut self, frame: u32, mover: &mut dyn Mover) -> Along {
+        let Self { path, setting, ranges, followed } = self;
+        let given = path.given(setting, frame);
+        let (reference, clamped) = Reference::load(given.exact, ranges);
+        let moved = mover.load(&given);
+        let state = moved.state;
+        if [state.position, state.velocity, state.acceleration] != reference.raw {
+            followed.found(frame, "a stored field is not the nearest that it can hold");
+        }
+        if moved.clamped != clamped {
+            followed.found(frame, "a clamped field was not counted");
+        }
+        followed.clamped = followed.clamped.saturating_add(moved.clamped);
+        Along { reference, state, floats: (Float::<f32>::load(given.exact), Float::<f64>::load(given.exact)) }
     }
-    if (state.velocity - before.velocity).abs() > before.acceleration.abs() << scale.acceleration_up {
-        followed.found(frame, "the velocity changed by more than the acceleration: it wrapped");
+
+    /// Notes a frame.
+    fn push(&mut self, frame: u32, Along { reference, state, floats }: &Along) {
+        let place = self.path.place(frame);
+        let [r, v, a] = reference.exact;
+        let exact = r + v.times(reference.since) + a.accelerated(reference.since);
+        self.followed.rows.push(Row {
+            frame,
+            since: reference.since,
+            place,
+            shown: shown(*state, &self.ranges),
+            causes: reference.causes(place, *state, &self.ranges),
+            saturated: reference.saturated,
+            steady: reference.raw[2] == 0,
+            f32_px: floats.0.off_px(exact),
+            f64_px: floats.1.off_px(exact),
+        });
     }
-    if !(-1 - ranges.velocity_top..=ranges.velocity_top).contains(&state.velocity) {
-        followed.found(frame, "the velocity is beyond its field");
-    }
-    if moved.clamped != clamped {
-        followed.found(frame, "a clamped field was not counted");
+
+    /// What a step may never do, whatever the arithmetic: wrap, leave a field, or clamp and not count it.
+    fn check(&mut self, frame: u32, before: State, moved: Moved, clamped: u32) {
+        let Self { ranges, followed, .. } = self;
+        let (scale, state) = (&ranges.scale, moved.state);
+        // 2v + a of the largest fields, in the position's last bits and one more for what was rounded.
+        let lift = |steps: i64| ((steps << scale.up) >> scale.down) + 1;
+        let most = lift(2 * (ranges.velocity_top + 1) + ((ranges.acceleration_top + 1) << scale.acceleration_up));
+        if (state.position - before.position).abs() > most {
+            followed.found(frame, "the position jumped farther than the largest velocity allows: it wrapped");
+        }
+        if (state.velocity - before.velocity).abs() > before.acceleration.abs() << scale.acceleration_up {
+            followed.found(frame, "the velocity changed by more than the acceleration: it wrapped");
+        }
+        if !(-1 - ranges.velocity_top..=ranges.velocity_top).contains(&state.velocity) {
+            followed.found(frame, "the velocity is beyond its field");
+        }
+        if moved.clamped != clamped {
+            followed.found(frame, "a clamped field was not counted");
+        }
+        followed.clamped = followed.clamped.saturating_add(moved.clamped);
     }
 }

@@ -179,7 +179,9 @@ pub fn run(
             let (x, y) = ((cell % grid.width()) as i32, (cell / grid.width()) as i32);
             let Some(galpixel) = controller.front().load(x, y) else { continue };
             let bounds = laws.map(|law| law.bound_px(number, picture.counter == 0));
-            outcome.compare(track, [x, y], &galpixel, number, bounds);
+            let cell = [x, y].map(|cell| Px::of(cell.into(), 0));
+            let place = [0, 1].map(|axis| cell[axis] + Px::given(galpixel.offset[axis], 0));
+            outcome.compare(track, place, number, bounds);
         }
     }
     outcome.bits = bits.finish();
@@ -249,12 +251,11 @@ impl Outcome {
         }
     }
 
-    fn compare(&mut self, track: &Track, cell: [i32; 2], galpixel: &Galpixel, frame: u32, bounds: [f64; 2]) {
+    fn compare(&mut self, track: &Track, place: [Px; 2], frame: u32, bounds: [f64; 2]) {
         self.followed += 1;
         for axis in 0..2 {
             let [r, v, a] = track.motion[axis];
-            let place = Px::of(cell[axis].into(), 0) + Px::given(galpixel.offset[axis], 0);
-            let off = (r + v.times(frame) + a.accelerated(frame) - place).abs().to_f64();
+            let off = (r + v.times(frame) + a.accelerated(frame) - place[axis]).abs().to_f64();
             self.worst_px = self.worst_px.max(off);
             if off > bounds[axis] + FLOAT_PX && self.findings.is_empty() {
                 self.findings.push(format!("a galpixel is {off:.4} px off, over {:.4} (frame {frame})", bounds[axis]));

@@ -261,8 +261,11 @@ mod tests {
 
     #[test]
     fn a_list_of_one_is_all_that_is_run() {
-        let one =
-            Axes { kept: vec![Kept::Velocity], roundings: vec![Rounding::Truncate], rungs: vec![FillMode::Hold.into()] };
+        let one = Axes {
+            kept: vec![Kept::Velocity],
+            roundings: vec![Rounding::Truncate],
+            rungs: vec![FillMode::Hold.into()],
+        };
         for configuration in one.design(Extent::Full) {
             assert_eq!(
                 (configuration.kept, configuration.rounding, configuration.rung),

@@ -203,14 +203,14 @@ pub struct FloatFrame {
     pub places: Vec<(u32, [f64; 2])>,
 }
 
-/// Extrapolates an update in floats; `visit` sees the frames that `wanted` names.
-pub fn run(update: &Update, kept: Kept, rung: FillMode, frames: u32, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
+/// Extrapolates an update in floats up to the last of the frames that `wanted` names; `visit` sees these.
+pub fn run(update: &Update, kept: Kept, rung: FillMode, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
     let Some(mut maps) = maps(kept, update.width, update.height) else { return };
     maps.load(update);
     let known = |(cell, sample): (u32, &Sample)| if sample.known == Known::Motion { cell } else { NOBODY };
     let mut origins: Vec<u32> = (0..).zip(&update.samples).map(known).collect();
     let mut winners = vec![NOBODY; origins.len()];
-    for number in 1..=frames {
+    for number in 1..=wanted.iter().copied().max().unwrap_or(0) {
         maps.step(rung, &mut winners);
         origins = winners.iter().map(|&winner| origins.get(winner as usize).copied().unwrap_or(NOBODY)).collect();
         if wanted.contains(&number) {

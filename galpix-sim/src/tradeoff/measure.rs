@@ -51,7 +51,7 @@ pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measu
     let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.looked.len());
     let Reference { update, looked, .. } = reference;
-    float::run(update, configuration.kept, configuration.rung.rung(), reference.frames, looked, |frame| {
+    float::run(update, configuration.kept, configuration.rung.rung(), looked, |frame| {
         let mut error = positions(reference, frame.number, layout, None, frame.places.iter().copied());
         error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
         frames.push(error);
@@ -98,7 +98,8 @@ fn positions(
         sum += second_order;
         count += 1;
         // What saturated is outside of the certificate.
-        let fits = bits.is_none_or(|bits| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, layout, frame).fits));
+        let fits =
+            bits.is_none_or(|bits| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, layout, frame).fits));
         if fits {
             kept_worst = kept_worst.max(apart(place, after(way(sample, layout, frame))));
         } else {

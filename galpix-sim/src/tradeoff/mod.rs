@@ -149,6 +149,14 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
     let ages = if rates.is_empty() { rates::ages(&study.reference.hold, &shown) } else { Vec::new() };
     let hold = Summary::of(&measure::hold(&study.reference));
     left_out.extend(omissions(&study, source, middle));
+    let alone: Vec<&str> =
+        axes.kept.iter().filter(|&&kept| stand_in::of(kept).is_none()).map(|kept| kept.name()).collect();
+    if !alone.is_empty() {
+        left_out.push(format!(
+            "Lanes {} have no stand-in: they were timed in the run-time form alone, and are on no front of time.",
+            alone.join(", ")
+        ));
+    }
     let reference = &study.reference;
     Ok(SourceReport {
         source: source.name().to_owned(),

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use galpix_core::{Bits, BudgetError, Dynamic, FillMode, Format, Record, Rounding, Settings};
 use rayon::prelude::*;
 
-use super::design::{Configuration, Step};
+use super::design::{Configuration, Kept, Step};
 use super::report::{FrameError, Point, Scheme, Summary};
 use super::timing::{Engine, InFloats, Maker, Time, race};
 use super::{Study, Work, float, measure, stand_in};

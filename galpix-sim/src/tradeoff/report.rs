@@ -160,9 +160,10 @@ pub struct Point {
     pub saturated: u64,
     /// The time with the budget chosen at run time, as the simulator runs it; none for floats.
     pub run_time: Option<Time>,
-    /// The time in the form of a product: with the budget fixed at compile time.
+    /// The time in the form of a product: with the budget fixed at compile time; none for lanes without a stand-in.
     pub compile_time: Option<Time>,
-    /// The compile-time budget that `compile_time` was measured with; none for floats, which are themselves.
+    /// The compile-time budget that `compile_time` was measured with; none for lanes that have none, and for floats, which
+    /// are themselves.
     pub stand_in: Option<String>,
     /// All frames together.
     pub summary: Summary,

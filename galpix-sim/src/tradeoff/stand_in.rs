@@ -13,6 +13,9 @@ use crate::update::Update;
 /// The design numbers of all stand-ins: the paper's.
 const DEMAND: Demand = Demand { extent: 1024, recog: 8, prop: 16 };
 
+/// Makes the contender of an update; none if its maps cannot be laid out.
+type Make = fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>;
+
 /// A format that is fixed at compile time.
 #[derive(Clone, Copy)]
 pub struct StandIn {
@@ -20,7 +23,7 @@ pub struct StandIn {
     pub kept: Kept,
     /// Its stored form.
     pub record: Record,
-    make: fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>,
+    make: Make,
 }
 
 enum Still {}

@@ -77,7 +77,7 @@ macro_rules! passes {
                 settings: &Settings,
                 tally: &mut Tally,
             ) {
-                stages::fill(front, back, scratch.winners, scratch.edges, settings.fill_mode, settings.reach, tally);
+                stages::fill(front, back, scratch, settings, tally);
             }
 
             /// A whole frame.
@@ -227,8 +227,7 @@ mod distorted {
     //! The distortion map of the DDOC: it multiplies and divides, and reaches no panic.
 
     use galpix_core::Grid;
-    use galpix_core::ddoc::splat::Splat;
-    use galpix_core::ddoc::{DistortionMap, Settings, Tally};
+    use galpix_core::ddoc::{DistortionMap, Settings, Splat, Tally};
 
     /// The map from depths.
     #[unsafe(no_mangle)]

@@ -1,26 +1,19 @@
-//! What a panel must show, made on the host: two maps, a budget chosen at run time, vector code, another processor.
+//! What a panel must show, made on the host: two maps, a format chosen at run time, vector code, another processor.
 
 use std::convert::Infallible;
+use std::marker::PhantomData;
 
 use embedded_graphics::Pixel;
 use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{OriginDimensions, Size};
-use embedded_graphics::prelude::{IntoStorage, PixelColor};
+use embedded_graphics::pixelcolor::{Gray4, Rgb565};
 use galpix_controller::overlay::Overlay;
 use galpix_controller::renderer::Renderer;
 use galpix_controller::scene;
-use galpix_core::colour::Colour;
-use galpix_core::edge;
-use galpix_core::frame::{Controller, Scratch};
-use galpix_core::galpixel::Chosen;
-use galpix_core::galpixmap::Galpixmap;
-use galpix_core::graft::graft;
-use galpix_core::grid::{Grid, Wings};
 use galpix_core::inpaint::pyramid::{Cell, Pyramid};
-use galpix_core::layout::Layout;
 use galpix_core::scan_out::{PanelColour, row};
-use galpix_core::tally::Tally;
-use galpix_link::panel::Panel;
+use galpix_core::{Controller, Dynamic, Galpixmap, Grid, Margin, Scratch, Tally, graft, stages};
+use galpix_link::panel::{Lcd, Oled, Panel};
 use galpix_link::picture::PictureHash;
 use galpix_sim::picture::Picture;
 
@@ -55,33 +48,30 @@ pub fn frames(
     overlay: bool,
 ) -> Result<Vec<Expected>, Failure> {
     match board {
-        Board::Lm3s6965evb => of::<galpix_link::panel::Oled>((board, filling), shows, first, frames, overlay),
-        Board::VexpressA9 => of::<galpix_link::panel::Lcd>((board, filling), shows, first, frames, overlay),
+        Board::Lm3s6965evb => of::<Oled, Gray4>((board, filling), shows, first, frames, overlay),
+        Board::VexpressA9 => of::<Lcd, Rgb565>((board, filling), shows, first, frames, overlay),
     }
 }
 
-fn of<P: Panel>(
+fn of<P: Panel, C: PanelColour>(
     (board, filling): (Board, Filling),
     shows: Shows<'_>,
     first: u32,
     count: u32,
     overlay: bool,
-) -> Result<Vec<Expected>, Failure>
-where
-    P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
-{
+) -> Result<Vec<Expected>, Failure> {
     let failed = |error: &dyn std::fmt::Display| Failure::new(format!("the host's map cannot be set up: {error}"));
-    let budget = Chosen::<P::Layout>::new(P::BITS).map_err(|error| failed(&error))?;
+    let format = Dynamic::new(P::BITS, P::LAYOUT).map_err(|error| failed(&error))?;
     let mut starts = vec![0; usize::from(P::HEIGHT)];
-    let grid = Grid::new(u32::from(P::WIDTH), u32::from(P::HEIGHT), Wings::NONE, &mut starts)
+    let grid = Grid::new(u32::from(P::WIDTH), u32::from(P::HEIGHT), Margin::NONE, &mut starts)
         .map_err(|error| failed(&error))?;
-    let words = Galpixmap::<P::Layout, _>::words(&grid, budget);
+    let words = Galpixmap::words(&grid, format);
     let (mut front, mut back) = (vec![0; words], vec![0; words]);
     let told = |words: usize| vec![0; if P::TELLS_SURFACES { words } else { 0 }];
-    let (mut winners, mut edges) = (told(grid.cells() as usize), told(edge::words(&grid)));
+    let (mut winners, mut edges) = (told(grid.cells() as usize), told(stages::words(&grid)));
     let mut controller = Controller::new(
-        Galpixmap::<P::Layout, _>::new(grid, budget, &mut front).map_err(|error| failed(&error))?,
-        Galpixmap::new(grid, budget, &mut back).map_err(|error| failed(&error))?,
+        Galpixmap::new(grid, format, &mut front).map_err(|error| failed(&error))?,
+        Galpixmap::new(grid, format, &mut back).map_err(|error| failed(&error))?,
         Scratch { winners: &mut winners, edges: &mut edges },
     )
     .map_err(|error| failed(&error))?;
@@ -118,35 +108,26 @@ where
         if filling == Filling::PushPull {
             controller.inpaint(&P::SETTINGS, &P::INPAINTING, &mut pyramid);
         }
-        made.push(expected::<P>(board, &controller, &tally, overlay));
+        made.push(expected::<P, C>(board, &controller, &tally, overlay));
     }
     Ok(made)
 }
 
-fn expected<P: Panel>(
+fn expected<P: Panel, C: PanelColour>(
     board: Board,
-    controller: &Controller<'_, P::Layout, Chosen<P::Layout>>,
+    controller: &Controller<'_, Dynamic>,
     tally: &Tally,
     overlay: bool,
-) -> Expected
-where
-    P::Layout: Layout<Colour: PanelColour<Pixel: IntoStorage<Storage: Into<u32>>>>,
-{
-    type ColourOf<P> = <<P as Panel>::Layout as Layout>::Colour;
+) -> Expected {
     let (width, height) = (usize::from(P::WIDTH), usize::from(P::HEIGHT));
     let (frame, mut hash) = (controller.frame(), PictureHash::new());
-    let mut sheet = Sheet {
-        colours: Vec::with_capacity(width * height),
-        width,
-        height,
-        pixel: core::marker::PhantomData::<<ColourOf<P> as PanelColour>::Pixel>,
-    };
+    let mut sheet = Sheet { colours: Vec::with_capacity(width * height), width, height, pixel: PhantomData::<C> };
     for y in 0..height as u32 {
         hash.row(row(controller.front(), y));
         sheet.colours.extend(row(controller.front(), y));
     }
     if overlay {
-        let ink = [[255; 3], [0; 3]].map(|rgb| ColourOf::<P>::pixel(ColourOf::<P>::from_rgb888(rgb)));
+        let ink = [[255; 3], [0; 3]].map(|rgb| C::of_word(C::FORMAT.from_rgb888(rgb)));
         let Ok(()) = Overlay::new(frame, tally).draw(&mut sheet, (0, height as u32), ink);
     }
     let pixels = sheet.colours.iter().map(|&colour| board.shown(colour)).collect();
@@ -158,7 +139,7 @@ struct Sheet<C> {
     colours: Vec<u32>,
     width: usize,
     height: usize,
-    pixel: core::marker::PhantomData<C>,
+    pixel: PhantomData<C>,
 }
 
 impl<C> OriginDimensions for Sheet<C> {
@@ -167,7 +148,7 @@ impl<C> OriginDimensions for Sheet<C> {
     }
 }
 
-impl<C: PixelColor + IntoStorage<Storage: Into<u32>>> DrawTarget for Sheet<C> {
+impl<C: PanelColour> DrawTarget for Sheet<C> {
     type Color = C;
     type Error = Infallible;
 
@@ -175,7 +156,7 @@ impl<C: PixelColor + IntoStorage<Storage: Into<u32>>> DrawTarget for Sheet<C> {
         for Pixel(point, colour) in pixels {
             let (x, y) = (point.x as usize, point.y as usize);
             if x < self.width && y < self.height {
-                self.colours[y * self.width + x] = colour.into_storage().into();
+                self.colours[y * self.width + x] = colour.word();
             }
         }
         Ok(())

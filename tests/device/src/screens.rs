@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use galpix_controller::scene;
-use galpix_core::galpixel::Class;
+use galpix_core::Class;
 use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
 use galpix_sim::send::pack;
 use galpix_sim::{fit, scene as sources};

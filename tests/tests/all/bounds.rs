@@ -6,7 +6,7 @@ use galpix_sim::certificate::Certificate;
 use galpix_sim::engine::Engine;
 use galpix_tests::lent::{Shape, with_controller};
 use galpix_tests::profiles::dynamic;
-use galpix_tests::stage::{Stage, number, self};
+use galpix_tests::stage::{self, Stage, number};
 
 /// What floating point may add to an error of a pixel.
 const FLOAT: f64 = 1e-6;

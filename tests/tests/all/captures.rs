@@ -146,7 +146,8 @@ fn fixed_point_is_as_good_as_a_float_warp_over_the_cells_that_galpixels_reach() 
 #[test]
 fn the_best_rung_is_better_than_sample_and_hold() {
     let Some(captures) = captures() else { return };
-    const RUNGS: [FillMode; 5] = [FillMode::Hold, FillMode::Debris, FillMode::Bullet, FillMode::Galdebris, FillMode::Extend];
+    const RUNGS: [FillMode; 5] =
+        [FillMode::Hold, FillMode::Debris, FillMode::Bullet, FillMode::Galdebris, FillMode::Extend];
     let low = each(captures, |ran| {
         let source = open(&ran.manifest);
         let truths: Vec<u32> = ran.report.frames.iter().filter(|f| f.truth.is_some()).map(|f| f.frame).collect();

@@ -38,7 +38,7 @@ fn the_paper_map_names_functions_and_tests_that_exist() {
         let mut of_file = String::new();
         for word in quoted(line) {
             if word.ends_with(".rs") || word.ends_with('/') {
-                let file = root().join("tests/tests").join(word);
+                let file = root().join("tests/tests/all").join(word);
                 assert!(file.exists(), "there is no test {word}");
                 of_file = fs::read_to_string(file).unwrap_or_default();
                 tests += 1;

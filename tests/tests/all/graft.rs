@@ -4,7 +4,7 @@ use fixed::types::I32F32;
 use galpix_core::{Class, Dynamic, FillMode, Format, Galpixel, Grafted, Layout, Rounding, Settings, graft};
 use galpix_tests::lent::{Shape, cell_words, with_controller, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
-use galpix_tests::stage::{number, self};
+use galpix_tests::stage::{self, number};
 
 /// Takes all scenes `late` frames further, once as maps without any fill, and once galpixel by galpixel into a map of
 /// something else: the cells that an update in time reaches hold the same words, unless something was lost in a collision
@@ -40,9 +40,7 @@ fn late_is_in_time(format: Dynamic, rounding: Rounding, late: u32) {
             let mut differ = 0;
             for cell in 0..front.grid().cells() {
                 let in_time = cell_words(front, cell);
-                differ += u32::from(
-                    front.class(cell) != Class::Empty && in_time != grafted[cell as usize],
-                );
+                differ += u32::from(front.class(cell) != Class::Empty && in_time != grafted[cell as usize]);
             }
             // One that lost a collision on the way is gone in the map, and may lie elsewhere and nearer when grafted.
             assert!(differ <= collided, "{}: {differ} cells differ, {collided} collided", stage.scene.name());

@@ -13,8 +13,7 @@ use galpix_tests::profiles::dynamic;
 fn run(update: &Update, fill: Fill, mut visit: impl FnMut(u32, galpix_sim::picture::Picture, Vec<u32>, Vec<bool>)) {
     let request = Request { fill, ..Request::default() };
     let format = dynamic(Layout::FULL, Bits::derive(experiment::demand(update, 24, &request)).unwrap());
-    let settings =
-        Settings { fill_mode: fill.rung(), ..Settings::for_depth(u32::from(format.record().depth().bits)) };
+    let settings = Settings { fill_mode: fill.rung(), ..Settings::for_depth(u32::from(format.record().depth().bits)) };
     let engine = Engine::new(format, settings).inpainting(fill.inpaint());
     engine
         .run(update, 24, |frame| visit(frame.number, frame.picture(), words(frame.map()), frame.reached()))

@@ -7,14 +7,17 @@ use galpix_core::inpaint::levels;
 use galpix_core::inpaint::paint::Moving;
 use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
 use galpix_core::inpaint::validity::Gamma;
+use galpix_core::objects::{Object, ObjectsTally, replace};
 use galpix_core::{
-    Bits, Class, Dynamic, Format, Galpixel, Inpainting, Layout, Profile, Settings, Static, Tally, stages,
+    Bits, Class, Dynamic, Format, Galpixel, Inpainting, Layout, Profile, Rounding, Settings, Static, Tally, stages,
 };
 use galpix_tests::layouts::{
     FLAT565_WITHOUT_DEPTH, SHADED_WITHOUT_ACCELERATION, SHADED_WITHOUT_DEPTH_MOTION, SHADED_WITHOUT_LUMINOSITY,
     SHADED_WITHOUT_TAG, VELOCITY565_WITHOUT_VELOCITY,
 };
-use galpix_tests::lent::{Mode, Run, Shape, Trace, assert_same, cell_words, with_controller, with_maps, with_rolling, words};
+use galpix_tests::lent::{
+    Mode, Run, Shape, Trace, assert_same, cell_words, with_controller, with_maps, with_rolling, words,
+};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, STRADDLING, UNEVEN, dynamic};
 use galpix_tests::random;
 use galpix_tests::stage::{self, Stage, settings_in_turn};
@@ -63,7 +66,10 @@ fn compile_time_is_run_time<P: Profile>() {
         let content = random::words(seed, shape.cells() as usize * chosen.record().words());
         // Neighbours that often agree.
         let calm: Vec<u32> = content.iter().map(|word| word & 0x0410_0041).collect();
-        for (content, settings) in [content, calm].iter().zip(settings_in_turn(seed as usize, depth_bits).cycle()) {
+        for (content, settings) in [content, calm]
+            .iter()
+            .flat_map(|content| settings_in_turn(seed as usize, depth_bits).map(move |settings| (content, settings)))
+        {
             let what = format!("random words, {shape:?} {settings:?}");
             Made::of(fixed, shape, content, &settings).assert_same(&Made::of(chosen, shape, content, &settings), &what);
         }

@@ -1,11 +1,11 @@
 //! Resolution does not depend on the order of arrivals, and the fused pass is propagation and resolution.
 
-use galpix_core::{Class, Dynamic, Format, Galpixmap, Layout, Margin, Rounding, Tally};
 use galpix_core::stages::sweep;
-use galpix_tests::{packed, random, stage};
+use galpix_core::{Class, Dynamic, Format, Galpixmap, Layout, Margin, Rounding, Tally};
 use galpix_tests::layouts::{DEEP, FLAT565_WITHOUT_DEPTH, TINY_PLANE};
 use galpix_tests::lent::{Shape, cell_words, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, UNEVEN, dynamic};
+use galpix_tests::{packed, random, stage};
 use galpix_vectors::arrivals::{Arrival, arrivals, settle};
 
 type Reorder = fn(&mut Vec<Arrival>);

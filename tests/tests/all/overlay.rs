@@ -11,9 +11,9 @@ use embedded_graphics::prelude::Drawable;
 use embedded_graphics::primitives::{Line, Primitive, PrimitiveStyle, Rectangle};
 use embedded_graphics::text::Text;
 
+use galpix_core::overlay::{self, Overlay};
+use galpix_core::scan_out::{self, PanelColour, View};
 use galpix_core::{Bits, Class, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin, SetupError};
-use galpix_core::overlay::{Overlay, self};
-use galpix_core::scan_out::{PanelColour, View, self};
 use galpix_tests::lent::{Shape, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic, formats};
 
@@ -144,7 +144,7 @@ fn draws<C: PanelColour>(layout: Layout, bits: Bits) {
             for rows in 1..=shape.height {
                 let mut panel = panel(shape.width, shape.height);
                 for top in (0..shape.height).step_by(rows as usize) {
-                    let band = View::band(map, top, rows).under(overlay);
+                    let band = View::band(map, top, rows).under(&*overlay);
                     Image::new(&band, Point::new(0, top as i32)).draw(&mut panel).unwrap();
                 }
                 let whole: Vec<_> = (0..shape.height)
@@ -156,7 +156,7 @@ fn draws<C: PanelColour>(layout: Layout, bits: Bits) {
             if shape.width > 5 {
                 let area = Rectangle::new(Point::new(2, 1), Size::new(4, 3));
                 let mut panel = panel(4, 3);
-                View::new(map).under(overlay).draw_sub_image(&mut panel, &area).unwrap();
+                View::new(map).under(&*overlay).draw_sub_image(&mut panel, &area).unwrap();
                 for (index, word) in (0..).zip(panel.words) {
                     assert_eq!(word, Some(expected(map, place, 2 + index % 4, 1 + index / 4)));
                 }
@@ -207,7 +207,9 @@ fn text_and_lines_are_pinned() {
     let line = Line::new(Point::new(-3, 11), Point::new(30, 2));
     line.into_styled(PrimitiveStyle::with_stroke(yellow, 1)).draw(&mut overlay.canvas::<pixelcolor::Rgb565>()).unwrap();
     line.into_styled(PrimitiveStyle::with_stroke(BinaryColor::On, 1)).draw(&mut reference).unwrap();
-    Text::new("Hi", Point::new(2, 8), MonoTextStyle::new(&FONT_6X10, yellow)).draw(&mut overlay.canvas::<pixelcolor::Rgb565>()).unwrap();
+    Text::new("Hi", Point::new(2, 8), MonoTextStyle::new(&FONT_6X10, yellow))
+        .draw(&mut overlay.canvas::<pixelcolor::Rgb565>())
+        .unwrap();
     Text::new("Hi", Point::new(2, 8), MonoTextStyle::new(&FONT_6X10, BinaryColor::On)).draw(&mut reference).unwrap();
     let mut pinned = 0;
     for (x, y) in (0..12).flat_map(|y| (0..20).map(move |x| (x, y))) {

@@ -62,7 +62,7 @@ fn what_leaves_over_the_border_is_lost() {
 fn what_waits_in_the_wings_comes_in() {
     let drawing = Drawing(&["AB.....  44.....  }}.....", "..C...D  ..4...4  ..<...<"]);
     let shape = Shape { width: 3, height: 1, margin: Margin { left: 2, right: 2, top: 0, bottom: 1 } };
-    with_controller(shape, budget(), None, |controller| {
+    with_controller(shape, format(), None, |controller| {
         drawing.store(controller.front_mut(), |_| ());
         let shown = |front: &_, expected| {
             let row: String = galpix_core::scan_out::row(front, 0)
@@ -119,7 +119,7 @@ fn a_crack_is_closed_from_both_sides_round_by_round() {
 fn no_hole_is_left_inside_of_a_surface_that_is_magnified() {
     let side = 12;
     let shape = Shape { width: 20, height: 20, margin: Margin::all(0) };
-    with_controller(shape, budget(), None, |controller| {
+    with_controller(shape, format(), None, |controller| {
         for (x, y) in (0..side).flat_map(|y| (0..side).map(move |x| (x, y))) {
             let velocity = [number(f64::from(x) / 2.0), number(f64::from(y) / 2.0), number(0.0)];
             let galpixel = Galpixel { colour: [80; 3], depth: number(0.5), velocity, ..Galpixel::default() };
@@ -301,7 +301,7 @@ fn motion_that_is_no_whole_cell_arrives_when_it_is_due() {
 fn edges(drawing: &[&str], threshold: u32, change: impl Fn(&mut Galpixel)) -> Vec<String> {
     let drawing = Drawing(drawing);
     let shape = drawing.shape();
-    with_maps(shape, budget(), None, |mut front, _| {
+    with_maps(shape, format(), None, |mut front, _| {
         drawing.store(&mut front, change);
         let mut edges = vec![u32::MAX; words(front.grid())];
         let count = mark(&front, threshold, &mut edges);

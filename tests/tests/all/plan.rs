@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use galpix_core::Static;
 use galpix_sim::capture::ImportOptions;
 use galpix_sim::experiment::{Request, Source};
 use galpix_sim::plan::{self, Planning};
@@ -80,8 +81,8 @@ fn an_error_that_no_budget_keeps_is_refused() {
 
 /// What `galpix plan pan --max-error 0.5` printed.
 mod printed {
-    use galpix_core::{Bits, Colour, FillMode, Layout, Profile, Rounding, Settings};
     use galpix_core::record::Component;
+    use galpix_core::{Bits, FillMode, Layout, Profile, Rounding, Settings};
 
     include!("plan/pan.rs");
 }
@@ -89,16 +90,12 @@ mod printed {
 /// The printed lines are Rust, and make the planned layout.
 #[test]
 fn the_printed_code_compiles_and_is_the_plan() {
-    use galpix_core::Static;
     let plan = planned(&Source::Scene(scene::find("pan").unwrap()), 0.5).plan;
     let kept = include_str!("plan/pan.rs");
-    assert_eq!(plan.code.trim(), kept.trim(), "copy what is printed over tests/tests/plan/pan.rs");
-    assert_eq!(
-        <Static<printed::PlannedPanBudget> as Fixed<printed::PlannedPan>>::BYTES_PER_GALPIXEL,
-        plan.stored_bytes_per_galpixel
-    );
+    assert_eq!(plan.code.trim(), kept.trim(), "copy what is printed over tests/tests/all/plan/pan.rs");
+    assert_eq!(Static::<printed::PlannedPan>::RECORD.bytes(), plan.stored_bytes_per_galpixel);
     let settings = printed::SETTINGS;
-    assert_eq!((settings.rung.name(), settings.rounding.name()), (plan.rung, plan.motion.rounding));
+    assert_eq!((settings.fill_mode.name(), settings.rounding.name()), (plan.rung, plan.motion.rounding));
 }
 
 fn manifests(folder: &Path) -> Vec<PathBuf> {

@@ -61,12 +61,7 @@ fn content(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
 }
 
 /// What must hold after any frame.
-fn check_frame(
-    controller: &Controller<'_, Dynamic>,
-    before: &[Class],
-    tally: Tally,
-    settings: &Settings,
-) {
+fn check_frame(controller: &Controller<'_, Dynamic>, before: &[Class], tally: Tally, settings: &Settings) {
     let front = controller.front();
     let cells = front.grid().cells();
     let classes: Vec<Class> = (0..cells).map(|cell| front.class(cell)).collect();
@@ -93,7 +88,9 @@ fn check_frame(
             }
             Class::Galpixel => assert!(surfaces && (FILLED..FILLED + 16).contains(&winner), "{settings:?} {winner:x}"),
             Class::JustUnobscured => assert!(surfaces && winner == u32::MAX, "{settings:?} {winner:x}"),
-            Class::Debris => assert!(settings.fill_mode == FillMode::Debris && winner == u32::MAX, "{settings:?} {winner:x}"),
+            Class::Debris => {
+                assert!(settings.fill_mode == FillMode::Debris && winner == u32::MAX, "{settings:?} {winner:x}")
+            }
             Class::Empty => assert_eq!(winner, u32::MAX, "{settings:?}"),
         }
     }

@@ -1,12 +1,12 @@
 //! What moves alike stays together: all galpixels share a frame's threshold, so that a rigid patch is never torn.
 
 use fixed::types::I32F32;
-use galpix_core::{Bits, Class, Demand, Dynamic, FillMode, Format, Galpixel, Layout, Rounding, Settings};
 use galpix_core::record::Scale;
 use galpix_core::stages::{snap, step_position};
-use galpix_tests::random;
+use galpix_core::{Bits, Class, Demand, Dynamic, FillMode, Format, Galpixel, Layout, Rounding, Settings};
 use galpix_tests::lent::{Shape, with_controller};
 use galpix_tests::profiles::dynamic;
+use galpix_tests::random;
 
 const SIDE: i32 = 4;
 const FRAMES: u32 = 16;

@@ -15,13 +15,7 @@ use galpix_tests::stage::{self, settings_in_turn};
 const FRAMES: u32 = 6;
 
 /// Tally and planes of each of some frames, in one map and a window of `rows` rows.
-fn rolled(
-    shape: Shape,
-    format: Dynamic,
-    content: &[u32],
-    settings: &Settings,
-    rows: u32,
-) -> Vec<(Tally, Vec<u32>)> {
+fn rolled(shape: Shape, format: Dynamic, content: &[u32], settings: &Settings, rows: u32) -> Vec<(Tally, Vec<u32>)> {
     with_rolling(shape, format, content, rows, |rolling| {
         (0..FRAMES).map(|_| (rolling.step(settings), words(rolling.map()))).collect()
     })

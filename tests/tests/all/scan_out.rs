@@ -9,8 +9,8 @@ use embedded_graphics::pixelcolor::{self, PixelColor, RgbColor, raw::RawU16};
 use embedded_graphics::prelude::{Drawable, GrayColor, IntoStorage};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use galpix_core::{Bits, Colour, Dynamic, Format, Galpixel, Galpixmap, Layout, Margin};
-use galpix_core::scan_out::{PanelColour, View, self};
+use galpix_core::scan_out::{self, PanelColour, View};
+use galpix_core::{Bits, Colour, Dynamic, Galpixel, Galpixmap, Layout, Margin};
 use galpix_tests::lent::{Shape, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
 
@@ -115,7 +115,7 @@ fn draws<C: PanelColour + core::fmt::Debug>(layout: Layout, bits: Bits) {
                 assert!(panel.calls == shape.height.div_ceil(rows) && panel.pixels == whole, "bands of {rows}");
             }
             for top in [shape.height, shape.height + 1, u32::MAX] {
-                assert_eq!(View::band(map, top, 3).size().height, 0, "below the display");
+                assert_eq!(View::<_, C>::band(map, top, 3).size().height, 0, "below the display");
             }
             sub_images::<C>(shape, map);
         });
@@ -223,7 +223,11 @@ fn rows_are_the_displays_rows() {
                 let row = scan_out::row(map, y);
                 assert_eq!(row.len(), shape.width as usize);
                 for (x, word) in (0..).zip(row) {
-                    assert_eq!(word, expected::<pixelcolor::Rgb888>(Colour::RGB888, shape, x, y).into_storage(), "{x}, {y} of {shape:?}");
+                    assert_eq!(
+                        word,
+                        expected::<pixelcolor::Rgb888>(Colour::RGB888, shape, x, y).into_storage(),
+                        "{x}, {y} of {shape:?}"
+                    );
                 }
             }
             for y in [shape.height, shape.height + 1, u32::MAX] {

@@ -64,8 +64,7 @@ fn all_ways_of_making_a_frame_agree_on_scenes() {
 
 #[test]
 fn all_ways_of_making_a_frame_agree_on_random_words() {
-    let shapes =
-        [Shape::plain(1, 1), Shape::plain(1, 9), Shape::plain(70, 1), Shape::new(61, 40, [3, 1, 2, 5])];
+    let shapes = [Shape::plain(1, 1), Shape::plain(1, 9), Shape::plain(70, 1), Shape::new(61, 40, [3, 1, 2, 5])];
     for (name, format) in formats() {
         for (seed, shape) in (0..).zip(shapes) {
             let words = shape.cells() as usize * format.record().words();

@@ -49,7 +49,8 @@ fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) 
         let bits = step.bits(demand, layout, &ranges).unwrap();
         let format = Dynamic::new(bits, layout).unwrap();
         let record = format.record();
-        let settings = Settings { rounding, fill_mode: FillMode::Hold, ..Settings::for_depth(u32::from(record.depth().bits)) };
+        let settings =
+            Settings { rounding, fill_mode: FillMode::Hold, ..Settings::for_depth(u32::from(record.depth().bits)) };
         let configuration = Configuration { kept, step, rounding, rung: FillMode::Hold.into() };
         let certificate = Certificate::of(&record.scales[0], layout.acceleration, rounding, demand.prop);
         let measured = measure::engine(&reference, &configuration, bits, settings).unwrap();

@@ -76,8 +76,8 @@ impl Bench {
         say(Row { stage: "edge", ..row }, ticks.edge);
         say(Row { stage: "sweep", ..row }, ticks.sweep);
         say(Row { stage: "sweep-alone", ..row }, ticks.sweep_alone);
-        for (mode, ticks) in FillMode::ALL.into_iter().zip(ticks.fill) {
-            say(Row { stage: "fill", rung: mode.name(), ..row }, ticks);
+        for (fill_mode, ticks) in FillMode::ALL.into_iter().zip(ticks.fill) {
+            say(Row { stage: "fill", rung: fill_mode.name(), ..row }, ticks);
         }
         say(Row { stage: "frame", rung: FillMode::default().name(), ..row }, ticks.frame);
         say(Row { stage: "rolling", rung: FillMode::default().name(), ..row }, ticks.rolling);
@@ -112,12 +112,12 @@ impl Bench {
         let [swept, swept_winners] = swept;
         swept[..words].copy_from_slice(&back_memory[..words]);
         swept_winners.copy_from_slice(scratch.winners);
-        for (mode, ticks) in FillMode::ALL.into_iter().zip(&mut ticks.fill) {
+        for (fill_mode, ticks) in FillMode::ALL.into_iter().zip(&mut ticks.fill) {
             back_memory[..words].copy_from_slice(&swept[..words]);
             scratch.winners.copy_from_slice(swept_winners);
             let mut back = Galpixmap::over(*grid, format, back_memory).expect("memory enough");
-            let (mode, reach, mut tally) = (black_box(mode), black_box(settings.reach), Tally::default());
-            let work = || fill(&front, &mut back, scratch.winners, scratch.edges, mode, reach, &mut tally);
+            let (settings, mut tally) = (black_box(Settings { fill_mode, ..settings }), Tally::default());
+            let work = || fill(&front, &mut back, scratch, &settings, &mut tally);
             *ticks += clock.time(work).0;
             black_box(tally);
         }

@@ -40,7 +40,7 @@ use report::{Row, print, print_head};
 
 const WIDTH: u32 = 320;
 const HEIGHT: u32 = 240;
-/// Rows for constant work.
+/// Rows for constant time.
 const BAND: u32 = 48;
 const CELLS: usize = (WIDTH * HEIGHT) as usize;
 /// Cells of a pyramid.

@@ -18,9 +18,9 @@ pub enum Picture {
     Layers,
     /// Every galpixel by a motion and at a depth of its own, up to two cells a frame.
     Chaos,
-    /// Nothing moves, and all of it is equally far away: as little work as there can be, for constant work.
+    /// Nothing moves, and all of it is equally far away: as little work as there can be, for constant time.
     Flat,
-    /// Every other cell by chance is empty, the others move together, for constant work.
+    /// Every other cell by chance is empty, the others move together, for constant time.
     Holes,
     /// Nothing moves, and beside each thing a crescent was just uncovered, for push-pull.
     Torn,
@@ -108,7 +108,7 @@ impl Picture {
     /// Those that are measured stage by stage.
     pub const ALL: [Self; 5] = [Self::Still, Self::Pan, Self::Zoom, Self::Layers, Self::Chaos];
 
-    /// Those that constant work is held to beside them.
+    /// Those that constant time is held to beside them.
     pub const EXTREMES: [Self; 2] = [Self::Flat, Self::Holes];
 
     /// As in tables.

@@ -20,7 +20,7 @@ pub struct Row {
     pub mode: &'static str,
     /// The stage.
     pub stage: &'static str,
-    /// The rung of the fill ladder.
+    /// The fill mode.
     pub rung: &'static str,
 }
 

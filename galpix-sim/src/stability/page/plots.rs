@@ -84,8 +84,7 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> String {
     lines.retain(says_something);
     figure(
         case,
-        "Error by cause",
-        "px",
+        ["Error by cause", "px"],
         &remark(&format!("{}: the path that is farthest off.", path.name), path),
         lines,
         true,
@@ -107,7 +106,7 @@ fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
     if !lines.iter().any(|line| line.name.starts_with('f')) {
         text += " Floats are exact here.";
     }
-    figure(case, "The engine beside floats", "px", &remark(&text, path), lines, true)
+    figure(case, ["The engine beside floats", "px"], &remark(&text, path), lines, true)
 }
 
 /// The largest drift so far with each rounding.
@@ -123,7 +122,7 @@ fn by_rounding(case: &CaseReport) -> String {
     if !lines.iter().any(says_something) {
         lines.clear();
     }
-    figure(case, "Drift with each rounding", "px", "The largest of any path up to this frame.", lines, false)
+    figure(case, ["Drift with each rounding", "px"], "The largest of any path up to this frame.", lines, false)
 }
 
 /// All pictures of a case together.
@@ -145,10 +144,10 @@ fn tallies(case: &CaseReport, shown: &RoundingReport) -> String {
         line("holes", Ink::Holes, Stroke::Solid, 3),
         line("settled", Ink::Galpix, Stroke::Solid, 0),
     ];
-    figure(case, "Tallies", "cells", "All pictures of this case together, with the richest rung.", lines, false)
+    figure(case, ["Tallies", "cells"], "All pictures of this case together, with the richest rung.", lines, false)
 }
 
-fn figure(case: &CaseReport, title: &str, unit: &str, remark: &str, lines: Vec<Line>, log: bool) -> String {
+fn figure(case: &CaseReport, [title, unit]: [&str; 2], remark: &str, lines: Vec<Line>, log: bool) -> String {
     let legend: String = lines.iter().rev().map(key).collect();
     let description = format!("{}: {title} in {unit} over frames", case.name);
     let plot = Plot { description, lines, from_zero: true, cap: f64::INFINITY };

@@ -86,8 +86,7 @@ pub fn spread_by_doubling(extents: &mut [u32], spare: &mut [u32], grid: &Grid<'_
 
 /// The first cell of the row, the column and the row of each cell.
 fn places(grid: &Grid<'_>) -> impl Iterator<Item = (u32, u32, u32)> {
-    let row = |y: u32| (0..grid.width()).map(move |x| (grid.row(y as i32).unwrap_or(0), x, y));
-    (0..grid.height()).flat_map(row)
+    (0..grid.height()).flat_map(move |y| (0..grid.width()).map(move |x| (grid.row(y as i32).unwrap_or(0), x, y)))
 }
 
 fn at(words: &[u32], cell: u32) -> u32 {

@@ -1,6 +1,6 @@
 //! The scalar kernels of propagation and rounding.
 
-use galpix_core::record::{Component, Scale};
+use galpix_core::record::{Component, Scale, WIDEST_FIELD};
 use galpix_core::stages::{clamp_velocity, snap, step_position, step_velocity};
 use galpix_core::{Bits, Demand, Layout, Record, Rounding};
 use galpix_tests::exact::{self, Exact, saturated, signed};
@@ -186,5 +186,5 @@ fn the_widest_fields_do_not_overflow() {
             }
         }
     }
-    assert_eq!(widest, galpix_core::budget::WIDEST_FIELD);
+    assert_eq!(widest, WIDEST_FIELD);
 }

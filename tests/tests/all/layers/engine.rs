@@ -1,7 +1,7 @@
 //! The engine's layers with the memory that they are lent, beside the model of them.
 
 use galpix_core::layers::{Layer, Layers, composite_words, displacement_word};
-use galpix_core::{Controller, Format, Galpixmap, Grid, Layout, Scratch, stages};
+use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, stages};
 use galpix_tests::lent::Shape;
 
 use super::holes::Cell;

@@ -2,7 +2,7 @@
 
 use galpix_core::record::Field;
 use galpix_core::stages::{FILLED, NO_WINNER};
-use galpix_core::{Colour, FillMode, Layout, Record, Tally};
+use galpix_core::{FillMode, Record, Tally};
 use galpix_tests::packed;
 
 /// The words of a cell.

@@ -29,6 +29,26 @@ pub struct Own {
     pub displacements: Vec<[i64; 2]>,
 }
 
+/// What a frame counts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// In the base.
+    pub base: Tally,
+    /// In each further layer by itself.
+    pub hidden: Vec<Tally>,
+    /// Cells that show each further layer.
+    pub shown: Vec<u32>,
+}
+
+impl Counts {
+    /// What the engine counted in its last step, whose base counted `base`.
+    pub fn of(layers: &Layers<'_, '_, Dynamic>, base: Tally) -> Self {
+        let hidden = layers.hidden();
+        let (tallies, shown) = (hidden.iter().map(|layer| *layer.tally()), hidden.iter().map(Layer::shown));
+        Self { base, hidden: tallies.collect(), shown: shown.collect() }
+    }
+}
+
 pub struct Model {
     pub shape: Shape,
     pub format: Dynamic,

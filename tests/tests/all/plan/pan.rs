@@ -1,11 +1,7 @@
 /// 81 bits in 3 words a galpixel.
 pub enum PlannedPan {}
-impl Layout for PlannedPan {
-    type Colour = Rgb888;
-    const LANES: Layout = Layout { velocity: true, acceleration: true, ..Layout::STILL };
-}
-pub struct PlannedPanBudget;
-impl Profile for PlannedPanBudget {
+impl Profile for PlannedPan {
+    const LAYOUT: Layout = Layout { velocity: true, acceleration: true, ..Layout::STILL };
     const BITS: Bits = Bits {
         x: Component { position_frac: 5, velocity_int: 4, velocity_frac: 9, acceleration_int: 1, acceleration_frac: 9 },
         y: Component { position_frac: 5, velocity_int: 3, velocity_frac: 9, acceleration_int: 1, acceleration_frac: 9 },
@@ -14,6 +10,5 @@ impl Profile for PlannedPanBudget {
     };
 }
 pub const SETTINGS: Settings = Settings {
-    rounding: Rounding::Searched, rung: FillMode::Hold, edge_threshold: 1, reach: 1,
-    ..Settings::for_depth(0)
+    rounding: Rounding::Searched, fill_mode: FillMode::Hold, edge_threshold: 1, reach: 1,
 };

@@ -1,18 +1,10 @@
-//! `galpix fills` as a user or a script meets it.
+//! `galpix fills`.
 
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn galpix(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
-    command.current_dir(folder).arg("fills").args(arguments).output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
+use crate::{done, entries, folder, json, read, refused};
 
 fn picture(path: &Path) -> image::RgbImage {
     image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
@@ -20,12 +12,11 @@ fn picture(path: &Path) -> image::RgbImage {
 
 #[test]
 fn page_values_and_pictures_say_the_same() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &["crossing", "still", "--frames", "2", "--out", "here/deep"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert_eq!(text(&output.stdout).lines().last(), Some("here/deep/fills.html"));
+    let folder = folder();
+    let stdout = done(folder.path(), &["fills", "crossing", "still", "--frames", "2", "--out", "here/deep"]);
+    assert_eq!(stdout.lines().last(), Some("here/deep/fills.html"));
     let out = folder.path().join("here/deep");
-    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
+    let read = |name: &str| read(&out.join(name));
     let json = |name: &str| serde_json::from_str::<Value>(&read(name)).unwrap();
     let (document, index, csv, page) = (json("fills.json"), json("index.json"), read("fills.csv"), read("fills.html"));
     assert_eq!(document["nothing_disoccluded"].as_array().unwrap().as_slice(), ["still"]);
@@ -73,13 +64,11 @@ fn page_values_and_pictures_say_the_same() {
 
 #[test]
 fn one_document_and_only_the_fills_that_were_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let arguments =
-        ["fovea", "--fills", "extend,push-pull,push-pull-classic", "--gamma", "1", "--fovea", "60", "--json"];
-    let output = galpix(folder.path(), &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert!(std::fs::read_dir(folder.path()).unwrap().next().is_none(), "without --out nothing is written");
-    let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
+        ["fills", "fovea", "--fills=extend,push-pull,push-pull-classic", "--gamma=1", "--fovea=60", "--json"];
+    let document = json(folder.path(), &arguments);
+    assert!(entries(folder.path()).is_empty(), "without --out nothing is written");
     assert_eq!(document["fovea"], 60);
     let fills = document["sources"][0]["fills"].as_array().unwrap();
     let said = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
@@ -94,7 +83,7 @@ fn one_document_and_only_the_fills_that_were_asked_for() {
 
 #[test]
 fn what_cannot_be_used_is_refused_before_anything_is_written() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     std::fs::write(folder.path().join("file"), "in the way").unwrap();
     for (arguments, words) in [
         (["crossing", "nonsense"].as_slice(), ["nonsense", "galpix scenes"].as_slice()),
@@ -105,16 +94,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--frames", "0"], &["frames"]),
         (&["crossing", "--out", "file/below"], &["cannot be written", "--out"]),
     ] {
-        let output = galpix(folder.path(), arguments);
-        let sentence = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-        assert_eq!(text(&output.stdout), "", "{arguments:?}");
-        assert!(sentence.starts_with("galpix: ") && sentence.lines().count() == 1, "{arguments:?}: {sentence:?}");
-        for word in words {
-            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
-        }
-        let entries: Vec<_> =
-            std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-        assert_eq!(entries, ["file"], "{arguments:?}");
+        refused(folder.path(), &[&["fills"], arguments].concat(), words);
+        assert_eq!(entries(folder.path()), ["file".to_owned()].into(), "{arguments:?}");
     }
 }

@@ -1,10 +1,10 @@
-//! `galpix stability` as a user or a script meets it.
+//! `galpix stability`.
 
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
-use tempfile::TempDir;
+
+use crate::{done, entries, folder, json, read, refused};
 
 /// What must be there, whatever else is.
 const CASES: [&str; 22] = [
@@ -32,30 +32,10 @@ const CASES: [&str; 22] = [
     "old-debris",
 ];
 
-fn folder() -> TempDir {
-    tempfile::tempdir().expect("a folder for temporary files")
-}
-
-fn stability(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
-    command.current_dir(folder).arg("stability").args(arguments);
-    command.output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
-
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = stability(folder, arguments);
-    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
-    text(&output.stdout).to_owned()
-}
-
 #[test]
 fn the_whole_suite_as_json_holds_every_case_and_every_rounding() {
     let folder = folder();
-    let suite: Value = serde_json::from_str(&done(folder.path(), &["--json"])).expect("one JSON document");
+    let suite = json(folder.path(), &["stability", "--json"]);
     assert_eq!(suite["stable"], true);
     assert_eq!(suite["budget"]["extent"], 1024);
     let names: Vec<&str> = suite["cases"].as_array().unwrap().iter().filter_map(|case| case["name"].as_str()).collect();
@@ -108,10 +88,10 @@ fn the_whole_suite_as_json_holds_every_case_and_every_rounding() {
 #[test]
 fn tables_and_the_path_of_the_page() {
     let folder = folder();
-    let printed = done(folder.path(), &["sub-lsb", "sizes", "--out", "there/deeper"]);
+    let printed = done(folder.path(), &["stability", "sub-lsb", "sizes", "--out", "there/deeper"]);
     let last = printed.lines().last().unwrap();
     assert_eq!(Path::new(last), Path::new("there/deeper/stability.html"));
-    let page = std::fs::read_to_string(folder.path().join(last)).unwrap();
+    let page = read(&folder.path().join(last));
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
     assert!(page.contains("-sub-lsb\"") && page.contains("-sizes\"") && !page.contains("-empty\""));
     assert!(page.matches("<svg class=\"plot\"").count() >= 4);
@@ -125,8 +105,7 @@ fn tables_and_the_path_of_the_page() {
     assert!(row("sizes").ends_with("bounded"), "{printed}");
     let drift = printed.lines().filter(|line| line.starts_with("sub-lsb")).nth(1).expect("drift with each rounding");
     assert_eq!(drift.split_whitespace().count(), 5, "{drift}");
-    let files: Vec<_> = std::fs::read_dir(folder.path().join("there/deeper")).unwrap().collect();
-    assert_eq!(files.len(), 1, "one file and no draft");
+    assert_eq!(entries(&folder.path().join("there/deeper")).len(), 1, "one file and no draft");
 }
 
 #[test]
@@ -135,6 +114,7 @@ fn one_rounding_and_other_demands() {
     for demand in [["64", "8", "8"], ["1000", "7", "11"], ["2048", "16", "32"]] {
         let [extent, recog, prop] = demand;
         let arguments = [
+            "stability",
             "saturating",
             "near-plane",
             "one-cell",
@@ -148,7 +128,7 @@ fn one_rounding_and_other_demands() {
             "--prop",
             prop,
         ];
-        let suite: Value = serde_json::from_str(&done(folder.path(), &arguments)).unwrap();
+        let suite = json(folder.path(), &arguments);
         assert_eq!(suite["stable"], true, "{demand:?}");
         for case in suite["cases"].as_array().unwrap() {
             assert_eq!(case["roundings"].as_array().unwrap().len(), 1);
@@ -170,14 +150,7 @@ fn what_cannot_be_used_is_refused_in_one_sentence() {
         (&["empty", "--out", "file"], &["file cannot be written", "--out"]),
         (&["empty", "--json", "--out", "file/deeper"], &["cannot be written"]),
     ] {
-        let output = stability(folder.path(), arguments);
-        let sentence = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-        assert_eq!((text(&output.stdout), sentence.lines().count()), ("", 1), "{arguments:?}: {sentence}");
-        for word in words {
-            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
-        }
+        refused(folder.path(), &[&["stability"], arguments].concat(), words);
     }
-    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(left, ["file"], "nothing is written");
+    assert_eq!(entries(folder.path()), ["file".to_owned()].into(), "nothing is written");
 }

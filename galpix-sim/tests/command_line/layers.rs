@@ -1,30 +1,17 @@
-//! `galpix layers`, and `galpix run --hidden`, as a user or a script meets them.
-
-use std::path::Path;
-use std::process::{Command, Output};
+//! `galpix layers`, and `galpix run --hidden`.
 
 use serde_json::Value;
 
-fn galpix(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_galpix")).current_dir(folder).args(arguments).output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
-
-fn entries(folder: &Path) -> usize {
-    std::fs::read_dir(folder).unwrap().count()
-}
+use crate::{done, entries, folder, json, output, read, refused, text};
 
 #[test]
 fn page_and_values_say_the_same() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &["layers", "crossing", "still", "--frames", "2", "--out", "here/deep"]);
+    let folder = folder();
+    let output = output(folder.path(), &["layers", "crossing", "still", "--frames", "2", "--out", "here/deep"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout).lines().last(), Some("here/deep/layers.html"));
     assert!(text(&output.stderr).contains("still: nothing is disoccluded"), "{}", text(&output.stderr));
-    let read = |name: &str| std::fs::read_to_string(folder.path().join("here/deep").join(name)).unwrap();
+    let read = |name: &str| read(&folder.path().join("here/deep").join(name));
     let document: Value = serde_json::from_str(&read("layers.json")).unwrap();
     let (csv, page) = (read("layers.csv"), read("layers.html"));
     assert_eq!(document["nothing_disoccluded"].as_array().unwrap().as_slice(), ["still"]);
@@ -52,11 +39,9 @@ fn page_and_values_say_the_same() {
 
 #[test]
 fn json_is_one_document_and_nothing_is_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &["layers", "ball", "--frames", "2", "--separation", "0.25", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert_eq!(entries(folder.path()), 0);
-    let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
+    let folder = folder();
+    let document = json(folder.path(), &["layers", "ball", "--frames", "2", "--separation", "0.25", "--json"]);
+    assert!(entries(folder.path()).is_empty());
     assert_eq!(document["separation"], 0.25);
     let hidden = &document["sources"][0]["ways"][1]["hidden"];
     assert!(
@@ -67,12 +52,9 @@ fn json_is_one_document_and_nothing_is_written() {
 /// Without `--hidden` a run says what it said before there were layers.
 #[test]
 fn a_run_hands_over_what_is_hidden() {
-    let folder = tempfile::tempdir().unwrap();
-    let run = |arguments: &[&str]| {
-        let output = galpix(folder.path(), &[&["run", "ball", "--frames", "4", "--json"], arguments].concat());
-        assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        serde_json::from_str::<Value>(text(&output.stdout)).unwrap()
-    };
+    let folder = folder();
+    let run =
+        |arguments: &[&str]| json(folder.path(), &[&["run", "ball", "--frames", "4", "--json"], arguments].concat());
     let one = run(&[]);
     assert!(one.get("hidden").is_none() && one["frames"][3].get("from_hidden").is_none());
     assert_eq!(one, ignoring_time(run(&["--hidden", "none"]), &one));
@@ -88,8 +70,8 @@ fn a_run_hands_over_what_is_hidden() {
     assert_eq!(uncut["hidden"]["kept"], uncut["hidden"]["offered"]);
     let wide = run(&["--hidden", "second", "--separation", "0.9"]);
     assert_eq!(wide["hidden"]["offered"], 0);
-    let output = galpix(folder.path(), &["run", "ball", "--frames", "2", "--hidden", "second"]);
-    assert!(text(&output.stdout).contains("samples behind the first layer"), "{}", text(&output.stdout));
+    let printed = done(folder.path(), &["run", "ball", "--frames", "2", "--hidden", "second"]);
+    assert!(printed.contains("samples behind the first layer"), "{printed}");
 }
 
 /// A report with the times of another one.
@@ -103,7 +85,7 @@ fn ignoring_time(mut report: Value, like: &Value) -> Value {
 
 #[test]
 fn what_cannot_be_used_is_refused_before_anything_is_written() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     std::fs::write(folder.path().join("file"), "in the way").unwrap();
     let marbles = concat!(env!("CARGO_MANIFEST_DIR"), "/../captures/marbles");
     for (arguments, words) in [
@@ -117,14 +99,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["run", marbles, "--hidden", "second"], &["marbles", "[update.hidden]"]),
         (&["run", marbles, "--hidden", "ddoc"], &["marbles", "DDOC"]),
     ] {
-        let output = galpix(folder.path(), arguments);
-        let sentence = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-        assert_eq!(text(&output.stdout), "", "{arguments:?}");
-        assert!(sentence.starts_with("galpix: ") && sentence.lines().count() == 1, "{arguments:?}: {sentence:?}");
-        for word in words {
-            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
-        }
-        assert_eq!(entries(folder.path()), 1, "{arguments:?}");
+        refused(folder.path(), arguments, words);
+        assert_eq!(entries(folder.path()), ["file".to_owned()].into(), "{arguments:?}");
     }
 }

@@ -1,29 +1,12 @@
-//! `galpix error` as a user or a script meets it.
-
-use std::path::Path;
-use std::process::{Command, Output};
+//! `galpix error`.
 
 use serde_json::Value;
 
-fn galpix(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
-    command.current_dir(folder).arg("error").args(arguments).output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).expect("a folder");
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
-}
+use crate::{done, entries, folder, json, marbles, read, refused};
 
 /// A run of a few points over a few frames.
-const TINY: [&str; 9] = [
+const TINY: [&str; 10] = [
+    "error",
     "crossing",
     "--quick",
     "--frames",
@@ -49,15 +32,12 @@ fn same(cell: &str, value: &Value, what: &str) {
 
 #[test]
 fn page_values_and_document_say_the_same() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &TINY);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert_eq!(text(&output.stdout).lines().last(), Some("here/deep/error.html"));
+    let folder = folder();
+    assert_eq!(done(folder.path(), &TINY).lines().last(), Some("here/deep/error.html"));
     let out = folder.path().join("here/deep");
-    assert_eq!(names(&out), ["error.csv", "error.html", "error.json"]);
-    let read = |name: &str| std::fs::read_to_string(out.join(name)).unwrap();
-    let (csv, page) = (read("error.csv"), read("error.html"));
-    let document: Value = serde_json::from_str(&read("error.json")).unwrap();
+    assert_eq!(entries(&out), ["error.csv", "error.html", "error.json"].map(String::from).into());
+    let (csv, page) = (read(&out.join("error.csv")), read(&out.join("error.html")));
+    let document: Value = serde_json::from_str(&read(&out.join("error.json"))).unwrap();
     let source = &document["sources"][0];
     let points = source["points"].as_array().unwrap();
     assert!(document["command"].as_str().unwrap().starts_with("galpix error crossing --quick"));
@@ -108,11 +88,9 @@ fn page_values_and_document_say_the_same() {
 
 #[test]
 fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &[&TINY[..7], &["--json"]].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    assert!(names(folder.path()).is_empty(), "without --out nothing is written");
-    let document: Value = serde_json::from_str(text(&output.stdout)).expect("one JSON document and nothing else");
+    let folder = folder();
+    let document = json(folder.path(), &[&TINY[..8], &["--json"]].concat());
+    assert!(entries(folder.path()).is_empty(), "without --out nothing is written");
     let source = &document["sources"][0];
     let points = source["points"].as_array().unwrap();
     let mut galpix = Vec::new();
@@ -166,11 +144,9 @@ fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
 
 #[test]
 fn inpainting_is_a_rung_that_can_be_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let arguments = ["crossing", "--quick", "--frames", "2", "--lanes", "full", "--rungs", "hold,metamer", "--json"];
-    let output = galpix(folder.path(), &arguments);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let folder = folder();
+    let arguments = ["error", "crossing", "--quick", "--frames", "2", "--lanes=full", "--rungs=hold,metamer", "--json"];
+    let document = json(folder.path(), &arguments);
     let points = document["sources"][0]["points"].as_array().unwrap();
     let of = |rung: &str| points.iter().find(|point| point["rung"] == rung).expect("a point");
     let flip = |rung: &str| of(rung)["summary"]["flip"].as_f64().unwrap();
@@ -178,14 +154,41 @@ fn inpainting_is_a_rung_that_can_be_asked_for() {
     assert!(of("metamer")["compile_time"]["frame_us"].as_f64().unwrap() > 0.0);
 }
 
+/// Lanes that no format is compiled for have the time of the form chosen at run time, and no other.
+#[test]
+fn lanes_without_a_stand_in_have_one_time() {
+    let folder = folder();
+    let arguments =
+        ["error", "crossing", "--quick", "--frames=2", "--lanes=velocity,acceleration", "--rungs=hold", "--json"];
+    let document = json(folder.path(), &arguments);
+    let source = &document["sources"][0];
+    let (mut with, mut without) = (0, 0);
+    for point in source["points"].as_array().unwrap().iter().filter(|point| point["scheme"] == "galpix") {
+        assert!(point["run_time"]["frame_us"].as_f64().unwrap() > 0.0);
+        if point["lanes"] == "velocity" {
+            assert_eq!(point["stand_in"], "velocity in 3 words");
+            assert!(point["compile_time"]["frame_us"].as_f64().unwrap() > 0.0);
+            with += 1;
+        } else {
+            assert!(point["stand_in"].is_null() && point["compile_time"].is_null(), "{point}");
+            without += 1;
+        }
+    }
+    assert!(with > 0 && without > 0);
+    let left_out: Vec<&str> =
+        source["left_out"].as_array().unwrap().iter().filter_map(|sentence| sentence.as_str()).collect();
+    assert!(
+        left_out.iter().any(|sentence| sentence.contains("stand-in") && sentence.contains("acceleration")),
+        "{left_out:?}"
+    );
+}
+
 #[test]
 fn a_capture_is_compared_by_age() {
-    let folder = tempfile::tempdir().unwrap();
-    let marbles = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles");
-    let marbles = marbles.to_str().unwrap();
-    let output = galpix(folder.path(), &[marbles, "--quick", "--lanes", "velocity", "--rungs", "hold", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let folder = folder();
+    let marbles = marbles();
+    let arguments = ["error", marbles.to_str().unwrap(), "--quick", "--lanes=velocity", "--rungs=hold", "--json"];
+    let document = json(folder.path(), &arguments);
     let source = &document["sources"][0];
     assert!(source["rates"].as_array().unwrap().is_empty());
     assert!(!source["ages"].as_array().unwrap().is_empty());
@@ -197,7 +200,7 @@ fn a_capture_is_compared_by_age() {
 
 #[test]
 fn what_cannot_be_used_is_refused_before_anything_is_written() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     std::fs::write(folder.path().join("file"), "in the way").unwrap();
     std::fs::write(folder.path().join("capture.toml"), "this is no manifest").unwrap();
     for (arguments, words) in [
@@ -212,14 +215,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--quick", "--out", "file/below"], &["cannot be written", "--out"]),
         (&[], &["SOURCE"]),
     ] {
-        let output = galpix(folder.path(), arguments);
-        let sentence = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-        assert_eq!(text(&output.stdout), "", "{arguments:?}");
-        assert!(sentence.starts_with("galpix: ") && sentence.lines().count() == 1, "{arguments:?}: {sentence:?}");
-        for word in words {
-            assert!(sentence.contains(word), "{arguments:?}: {word:?} is not in {sentence:?}");
-        }
-        assert_eq!(names(folder.path()), ["capture.toml", "file"], "{arguments:?}");
+        refused(folder.path(), &[&["error"], arguments].concat(), words);
+        assert_eq!(entries(folder.path()), ["capture.toml", "file"].map(String::from).into(), "{arguments:?}");
     }
 }

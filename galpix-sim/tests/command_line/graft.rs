@@ -1,17 +1,8 @@
-//! `galpix graft` as a user or a script meets it.
-
-use std::path::Path;
-use std::process::{Command, Output};
+//! `galpix graft`.
 
 use serde_json::Value;
 
-fn galpix(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_galpix")).current_dir(folder).args(arguments).output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
+use crate::{folder, json, read, refused};
 
 fn way<'v>(report: &'v Value, name: &str) -> &'v Value {
     let ways = report["ways"].as_array().expect("ways");
@@ -26,10 +17,8 @@ fn number(value: &Value) -> f64 {
 /// a queue refuses is counted.
 #[test]
 fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &["graft", "hud", "--frames", "40", "--json", "--out", "out"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let report: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let folder = folder();
+    let report = json(folder.path(), &["graft", "hud", "--frames", "40", "--json", "--out", "out"]);
     assert_eq!(report["scene"], "hud");
     assert_eq!(report["objects"].as_array().unwrap().len(), 4);
     let (view, layers, grafts) = (way(&report, "whole-view"), way(&report, "whole-layers"), way(&report, "grafts"));
@@ -65,7 +54,7 @@ fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
     assert!(number(&pinned[1]["others_smeared"]) > 1000.0, "{}", pinned[1]);
     assert!(number(&pinned[2]["pinned_wrong"]) > 1000.0, "{}", pinned[2]);
 
-    let written = std::fs::read_to_string(folder.path().join("out/graft.json")).unwrap();
+    let written = read(&folder.path().join("out/graft.json"));
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), report);
     for name in ["whole-view", "grafts", "truth"] {
         assert!(folder.path().join(format!("out/{name}.png")).exists(), "{name}");
@@ -74,7 +63,7 @@ fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
 
 #[test]
 fn what_cannot_be_compared_is_said_in_a_sentence() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     for (arguments, words) in [
         (&["graft", "nowhere"][..], &["`nowhere`", "galpix scenes"][..]),
         (&["graft", "a\u{1b}[2Jb"], &["there is no scene"]),
@@ -87,10 +76,6 @@ fn what_cannot_be_compared_is_said_in_a_sentence() {
         (&["graft", "--out", "file"], &["file", "--out"]),
     ] {
         std::fs::write(folder.path().join("file"), []).unwrap();
-        let output = galpix(folder.path(), arguments);
-        let sentence = text(&output.stderr);
-        assert_eq!((output.status.code(), text(&output.stdout)), (Some(2), ""), "{arguments:?}: {sentence}");
-        assert!(sentence.lines().count() == 1 && !sentence.contains('\u{1b}'), "{arguments:?}: {sentence}");
-        assert!(words.iter().all(|word| sentence.contains(word)), "{arguments:?}: {sentence}");
+        refused(folder.path(), arguments, words);
     }
 }

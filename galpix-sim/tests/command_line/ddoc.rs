@@ -1,18 +1,8 @@
-//! `galpix ddoc` as a user or a script meets it.
-
-use std::path::Path;
-use std::process::{Command, Output};
+//! `galpix ddoc`.
 
 use serde_json::Value;
 
-fn galpix(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_galpix"));
-    command.current_dir(folder).arg("ddoc").args(arguments).output().expect("the program starts")
-}
-
-fn text(bytes: &[u8]) -> &str {
-    std::str::from_utf8(bytes).expect("UTF-8")
-}
+use crate::{done, entries, folder, json, read, refused};
 
 /// A cube with colours at its corners, as some programs write them.
 fn cube() -> String {
@@ -29,14 +19,13 @@ fn cube() -> String {
 
 #[test]
 fn page_values_and_pictures_say_the_same() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     std::fs::write(folder.path().join("cube.obj"), cube()).unwrap();
-    let output = galpix(folder.path(), &["cube.obj", "--size", "128", "--out", "here/deep"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let lines: Vec<&str> = text(&output.stdout).lines().collect();
+    let printed = done(folder.path(), &["ddoc", "cube.obj", "--size", "128", "--out", "here/deep"]);
+    let lines: Vec<&str> = printed.lines().collect();
     assert_eq!(lines.last(), Some(&"here/deep/ddoc.html"));
     let out = folder.path().join("here/deep");
-    let document: Value = serde_json::from_str(&std::fs::read_to_string(out.join("ddoc.json")).unwrap()).unwrap();
+    let document: Value = serde_json::from_str(&read(&out.join("ddoc.json"))).unwrap();
     let source = &document["sources"][0];
     assert_eq!((source["source"].as_str(), source["radius"].as_u64()), (Some("cube"), Some(4)));
     let count = |key: &str| source[key].as_u64().unwrap_or_else(|| panic!("{key}"));
@@ -46,7 +35,7 @@ fn page_values_and_pictures_say_the_same() {
     assert!((source["ratio"].as_f64().unwrap() - ratio).abs() < 1e-12);
     assert!(lines[1].starts_with("cube ") && lines[1].contains(&format!("{:.1} %", 100.0 * ratio)), "{}", lines[1]);
 
-    let page = std::fs::read_to_string(out.join("ddoc.html")).unwrap();
+    let page = read(&out.join("ddoc.html"));
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
     assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
     assert_eq!(page.matches("<img ").count(), 9);
@@ -59,19 +48,18 @@ fn page_values_and_pictures_say_the_same() {
 
 #[test]
 fn json_is_one_document_and_writes_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let output = galpix(folder.path(), &["knot", "--size", "96", "--radius", "5", "--asymmetry", "1.5", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let document: Value = serde_json::from_str(text(&output.stdout)).unwrap();
+    let folder = folder();
+    let arguments = ["ddoc", "knot", "--size", "96", "--radius", "5", "--asymmetry", "1.5", "--json"];
+    let document = json(folder.path(), &arguments);
     let source = &document["sources"][0];
     assert_eq!((source["size"].as_u64(), source["radius"].as_u64()), (Some(96), Some(5)));
     assert_eq!((source["asymmetry"].as_f64(), source["views"].as_u64()), (Some(1.5), Some(26)));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert!(entries(folder.path()).is_empty());
 }
 
 #[test]
 fn what_cannot_be_used_is_refused_in_one_sentence() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = folder();
     let hostile: [(&str, &[u8], &str); 11] = [
         ("empty.obj", b"", "no triangle with an area"),
         ("points.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\n", "no triangle with an area"),
@@ -102,12 +90,7 @@ fn what_cannot_be_used_is_refused_in_one_sentence() {
         ("a\u{1b}[31m.obj", "cannot be opened"),
     ]);
     for (name, what) in cases {
-        let output = galpix(folder.path(), &[name, "--size", "64"]);
-        let message = text(&output.stderr).trim_end();
-        assert_eq!(output.status.code(), Some(2), "{name}: {message}");
-        assert!(message.contains(what) && message.lines().count() == 1, "{name}: {message}");
-        assert!(message.starts_with("galpix: ") && !message.contains('\u{1b}'), "{name}: {message}");
-        assert!(output.stdout.is_empty(), "{name}");
+        refused(folder.path(), &["ddoc", name, "--size", "64"], &[what]);
     }
     for (arguments, what) in [
         (["knot", "--size", "63"], "64 to 2048"),
@@ -117,8 +100,6 @@ fn what_cannot_be_used_is_refused_in_one_sentence() {
         (["knot", "--asymmetry", "0.9"], "1 to 15"),
         (["knot", "--asymmetry", "nan"], "1 to 15"),
     ] {
-        let output = galpix(folder.path(), &arguments);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(text(&output.stderr).contains(what), "{arguments:?}: {}", text(&output.stderr));
+        refused(folder.path(), &[&["ddoc"], arguments.as_slice()].concat(), &[what]);
     }
 }

@@ -1,0 +1,33 @@
+//! `galpix vectors`.
+
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+
+use crate::{done, folder, refused};
+
+#[test]
+fn vectors_are_written_whole_and_again_the_same() {
+    let folder = folder();
+    let manifest = |out: &str, seed: &str| -> Value {
+        let path = done(folder.path(), &["vectors", "--out", out, "--seed", seed]);
+        let text = std::fs::read_to_string(folder.path().join(path.trim())).expect("the manifest");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let (one, again, other) = (manifest("a", "0"), manifest("b", "0"), manifest("c", "1"));
+    assert_eq!(one, again);
+    assert_ne!(one["cases"], other["cases"]);
+    let kinds: BTreeSet<&str> =
+        one["cases"].as_array().expect("cases").iter().filter_map(|case| case["kind"].as_str()).collect();
+    let known = ["step", "resolve", "edge", "fill", "frame", "inpaint", "layers", "objects", "disocclusion"];
+    assert_eq!(kinds, BTreeSet::from(known));
+    for case in one["cases"].as_array().expect("cases") {
+        for file in case["files"].as_array().expect("files") {
+            assert!(folder.path().join("a").join(file["path"].as_str().expect("a path")).is_file(), "{file}");
+        }
+    }
+    assert!(folder.path().join("a/schema.json").is_file() && folder.path().join("a/hashes.txt").is_file());
+    std::fs::write(folder.path().join("file"), "kept").expect("a file");
+    refused(folder.path(), &["vectors", "--out", "file"], &["cannot be written", "--out"]);
+    assert_eq!(std::fs::read_to_string(folder.path().join("file")).expect("the file"), "kept");
+}
