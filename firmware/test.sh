@@ -6,7 +6,7 @@
 #   firmware/test.sh               all steps
 #   firmware/test.sh proof cost    only these
 #   firmware/test.sh --list        their names
-#   firmware/test.sh --write-cost  counts instructions and writes them into cost.csv and docs/cost.md
+#   firmware/test.sh --write-cost  counts instructions and writes them into cost.csv
 #   OFFLINE=1 firmware/test.sh     downloads no target and no emulator
 set -euo pipefail
 cd "$(dirname "$0")"

@@ -134,7 +134,7 @@ pub fn race(contenders: &mut [Contender], cells: u32, rounds: usize) {
 /// Prints the figures; `against` is the contender of each group that the others are measured against.
 pub fn table(contenders: &[Contender], cells: u32, against: &str) {
     println!(
-        "\n{:<44} {:<8} {:>9} {:>8} {:>8} {:>9}",
+        "\n{:<46} {:<8} {:>9} {:>8} {:>8} {:>9}",
         "contender", "group", "ns/cell", "copy ns", "x copy", "x faster"
     );
     for contender in contenders {
@@ -142,7 +142,7 @@ pub fn table(contenders: &[Contender], cells: u32, against: &str) {
         let nanoseconds =
             |times: &[Duration]| median(times.iter().map(|time| time.as_secs_f64() * 1e9 / f64::from(cells)).collect());
         println!(
-            "{:<44} {:<8} {:>9.2} {:>8.2} {:>8.2} {:>9.2}",
+            "{:<46} {:<8} {:>9.2} {:>8.2} {:>8.2} {:>9.2}",
             contender.what,
             contender.group,
             nanoseconds(&contender.times),

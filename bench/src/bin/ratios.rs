@@ -126,12 +126,12 @@ fn compare((width, height): (u32, u32), rounds: usize) {
 
 /// Prints what it costs that a format is chosen at run time.
 fn at_run_time_by_fixed(contenders: &[Contender]) {
-    println!("\n{:<44} {:<8} {:>9}", "chosen at run time, by fixed", "group", "x fixed");
+    println!("\n{:<46} {:<8} {:>9}", "chosen at run time, by fixed", "group", "x fixed");
     for contender in contenders {
         let Some(what) = contender.what().strip_suffix(AT_RUN_TIME) else { continue };
         let fixed = contenders.iter().find(|fixed| fixed.what() == what && fixed.group() == contender.group());
         if let Some(fixed) = fixed {
-            println!("{what:<44} {:<8} {:>9.2}", contender.group(), contender.by(fixed));
+            println!("{what:<46} {:<8} {:>9.2}", contender.group(), contender.by(fixed));
         }
     }
 }

@@ -14,19 +14,65 @@ fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
-/// Finds the module that a path begins with, and in it the rest.
+fn core() -> PathBuf {
+    root().join("galpix-core/src")
+}
+
+/// The file of a module of the core.
+fn file_of(module: &[&str]) -> Option<PathBuf> {
+    let path = core().join(module.join("/"));
+    [path.with_extension("rs"), path.join("mod.rs")].into_iter().find(|file| file.exists())
+}
+
+/// Where the core's root has a name from: public module (or none), name, and the module that defines it.
+fn exports() -> Vec<(String, String, String)> {
+    let (mut exports, mut module) = (Vec::new(), String::new());
+    for line in fs::read_to_string(core().join("lib.rs")).unwrap().lines() {
+        if let Some(name) = line.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(" {")) {
+            module = name.to_owned();
+        } else if line == "}" {
+            module.clear();
+        } else if let Some(path) = line.trim_start().strip_prefix("pub use ").and_then(|rest| rest.strip_suffix(';')) {
+            let (from, names) = path.rsplit_once("::").unwrap_or(("", path));
+            let (from, names) = path.split_once("::{").unwrap_or((from, names));
+            for name in names.trim_end_matches('}').split(", ") {
+                exports.push((module.clone(), name.to_owned(), from.trim_start_matches("crate::").to_owned()));
+            }
+        }
+    }
+    exports
+}
+
+/// Finds the module that a path begins with, or that a public name of it is defined in, and in it the rest.
 fn in_a_module(path: &str) {
     let parts: Vec<&str> = path.split("::").collect();
-    let file = |count: usize| root().join("galpix-core/src").join(parts[..count].join("/")).with_extension("rs");
-    let count = (1..parts.len()).rev().find(|&count| file(count).exists());
-    let count = count.unwrap_or_else(|| panic!("there is no module of {path}"));
-    let source = fs::read_to_string(file(count)).unwrap();
-    for name in &parts[count..] {
+    let of_module = (1..parts.len()).rev().find_map(|count| Some((file_of(&parts[..count])?, &parts[count..])));
+    let exported = || {
+        let (module, rest) = match file_of(&parts[..1]) {
+            None if exports().iter().any(|(module, ..)| module == parts[0]) => (parts[0], &parts[1..]),
+            _ => ("", &parts[..]),
+        };
+        let from = exports().into_iter().find(|(of, name, _)| of == module && name == rest[0]);
+        from.and_then(|(_, _, from)| Some((file_of(&from.split("::").collect::<Vec<_>>())?, rest)))
+    };
+    let (file, names) = of_module.or_else(exported).unwrap_or_else(|| panic!("there is no module of {path}"));
+    let source = fs::read_to_string(&file).unwrap();
+    for name in names {
         let defined = source
             .lines()
             .filter(|line| !line.trim_start().starts_with("//"))
             .any(|line| line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|part| part == *name));
-        assert!(defined, "{path} is not in {}", file(count).display());
+        assert!(defined, "{path} is not in {}", file.display());
+    }
+}
+
+#[test]
+fn public_names_are_found_where_they_are_defined() {
+    for path in ["stages::snap", "record::Component::derive", "Bits::derive", "Controller::step", "layers::Layers"] {
+        in_a_module(path);
+    }
+    for path in ["stages::nothing", "propagate::snap", "Bits::nothing", "frame::step::nothing"] {
+        assert!(std::panic::catch_unwind(|| in_a_module(path)).is_err(), "{path} is found");
     }
 }
 

@@ -1,7 +1,7 @@
 //! The stiff and extreme suite, whatever the budget: nothing is unstable, and the strip that it runs on is the engine.
 
 use fixed::types::I32F32;
-use galpix_core::{Class, Demand, FillMode, Layout, Rounding, Settings};
+use galpix_core::{Class, Demand, Dynamic, FillMode, Layout, Rounding, Settings};
 use galpix_sim::stability::causes::follow;
 use galpix_sim::stability::mover::Strip;
 use galpix_sim::stability::verdict::Verdict;

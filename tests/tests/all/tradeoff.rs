@@ -120,7 +120,7 @@ fn floats_show_what_the_engine_shows_where_nothing_moves() {
     let hold = update.picture();
     for kept in [Kept::Velocity, Kept::VelocityDepth, Kept::Acceleration, Kept::Full, Kept::Luminosity] {
         let mut frames = 0;
-        float::run(&update, kept, FillMode::Hold, 4, &[1, 4], |frame| {
+        float::run(&update, kept, FillMode::Hold, &[1, 4], |frame| {
             assert_eq!(frame.picture, hold, "{kept:?} frame {}", frame.number);
             assert!(frame.reached.iter().all(|&reached| reached));
             frames += 1;
@@ -151,7 +151,7 @@ fn floats_and_engine_agree_to_the_certificate_where_things_move() {
             })
             .unwrap();
         let (mut both, mut one) = (0, 0);
-        float::run(update, kept, FillMode::Hold, 8, &[8], |frame| {
+        float::run(update, kept, FillMode::Hold, &[8], |frame| {
             for (origin, [x, y]) in frame.places {
                 match engine[origin as usize].take() {
                     Some([to_x, to_y]) => {
@@ -174,7 +174,7 @@ fn floats_leave_black_holes_or_what_was_shown() {
     let pillars = scene::find("pillars").unwrap();
     let update = scene::update(pillars, 0.0);
     for (rung, filled) in [(FillMode::None, false), (FillMode::Hold, true)] {
-        float::run(&update, Kept::Full, rung, 1, &[1], |frame| {
+        float::run(&update, Kept::Full, rung, &[1], |frame| {
             let before = update.picture();
             let mut holes = 0;
             for (index, _) in frame.reached.iter().enumerate().filter(|(_, reached)| !**reached) {

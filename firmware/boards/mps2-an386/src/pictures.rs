@@ -154,13 +154,13 @@ impl Picture {
                 if self == Self::Torn && things.iter().any(uncovered) {
                     galpixel.class = Class::JustUnobscured;
                 }
-                self.set_in_motion(x, y, width, height, &mut galpixel);
+                self.set_in_motion([x, y], [width, height], &mut galpixel);
                 show(x, y, galpixel);
             }
         }
     }
 
-    fn set_in_motion(self, x: i32, y: i32, width: i32, height: i32, galpixel: &mut Galpixel) {
+    fn set_in_motion(self, [x, y]: [i32; 2], [width, height]: [i32; 2], galpixel: &mut Galpixel) {
         const HUNDREDTH: i64 = (1 << 32) / 100;
         let (still, cell) = ([I32F32::ZERO; 3], (y as u32) << 16 | x as u32);
         if self != Self::Layers {

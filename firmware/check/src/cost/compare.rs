@@ -9,7 +9,7 @@ pub const MOST: u64 = 10;
 const MOST_SPREAD: u64 = 1;
 
 /// What to do about a difference that is meant.
-pub const REMEDY: &str = "if it is meant, firmware/test.sh --write-cost and commit both files";
+const REMEDY: &str = "if it is meant, firmware/test.sh --write-cost and commit the file";
 
 /// Rows that differ by more than [`MOST`], that are missing, or that are new: a line for each.
 pub fn differences(committed: &Table, run: &Table) -> Vec<String> {

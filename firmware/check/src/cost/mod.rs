@@ -5,7 +5,7 @@
 //! next review sees it.
 
 mod compare;
-mod document;
+mod report;
 mod table;
 
 use std::io::Read;
@@ -14,32 +14,22 @@ use std::path::Path;
 use crate::Findings;
 use table::Table;
 
-/// Reads a run, compares it with the table and prints it; or writes it into the table and into the document.
+/// Reads a run, compares it with the table and prints it; or writes it into the table.
 pub fn run(files: &[&str], write: bool) -> Result<Findings, String> {
-    let firmware = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let (table, document) = (firmware.join("cost.csv"), firmware.join("../docs/cost.md"));
+    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("../cost.csv");
     let run = Table::parse(&read_run(files)?)?;
     if run.is_empty() {
         return Err("the run has no rows".to_owned());
     }
-    let section = document::section(&run);
-    let text = std::fs::read_to_string(&document).map_err(|error| format!("{}: {error}", document.display()))?;
-    let mut findings = Findings { report: format!("{section}\n"), faults: compare::spreads(&run) };
+    let mut findings = Findings { report: format!("{}\n", report::tables(&run)), faults: compare::spreads(&run) };
     if write {
-        let save = |path: &Path, text: &str| {
-            std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
-        };
-        save(&table, &run.to_string())?;
-        save(&document, &document::replaced(&text, &section)?)?;
-        findings.report += "firmware/cost.csv and docs/cost.md are written\n";
+        std::fs::write(&table, run.to_string()).map_err(|error| format!("{}: {error}", table.display()))?;
+        findings.report += "firmware/cost.csv is written\n";
         return Ok(findings);
     }
     let committed = std::fs::read_to_string(&table).map_err(|error| format!("{}: {error}", table.display()))?;
     let committed = Table::parse(&committed)?;
     findings.faults.extend(compare::differences(&committed, &run));
-    if document::replaced(&text, &document::section(&committed))? != text {
-        findings.faults.push(format!("docs/cost.md does not show what firmware/cost.csv holds: {}", compare::REMEDY));
-    }
     findings.report += &format!("{} rows, {} faults\n", run.rows().len(), findings.faults.len());
     Ok(findings)
 }

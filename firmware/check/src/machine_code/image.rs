@@ -195,10 +195,7 @@ mod tests {
     #[test]
     fn a_name_is_short_with_and_without_types() {
         assert_eq!(short("galpix_proof::passes::proof_edge"), "proof_edge");
-        assert_eq!(
-            short("galpix_proof::passes::proof_edge::<core::L, galpix_core::Static<P>>"),
-            "proof_edge"
-        );
+        assert_eq!(short("galpix_proof::passes::proof_edge::<core::L, galpix_core::Static<P>>"), "proof_edge");
         assert_eq!(short("memcpy"), "memcpy");
     }
 }

@@ -5,18 +5,6 @@ use std::fmt::Write;
 use super::compare::{count, spread};
 use super::table::{Key, Table};
 
-/// Between these lines of the document stands what is written here.
-const MARKS: [&str; 2] = ["<!-- begin: firmware/test.sh --write-cost -->", "<!-- end -->"];
-
-/// The document with another section.
-///
-/// *Errors:* the marks are not there.
-pub fn replaced(document: &str, section: &str) -> Result<String, String> {
-    let parts = document.split_once(MARKS[0]).and_then(|(before, rest)| Some((before, rest.split_once(MARKS[1])?.1)));
-    let (before, after) = parts.ok_or_else(|| format!("the document lacks {} or {}", MARKS[0], MARKS[1]))?;
-    Ok(format!("{before}{}\n\n{section}\n{}{after}", MARKS[0], MARKS[1]))
-}
-
 /// A table: its head and its rows, numbers to the right.
 fn table(head: &[&str], labels: usize, rows: impl Iterator<Item = Vec<String>>) -> String {
     let ruler = (0..head.len()).map(|column| if column < labels { "---" } else { "---:" });
@@ -67,8 +55,8 @@ fn by_picture(run: &Table, target: &str, stage: &str, rung: &str) -> String {
     table(&head, 1, with_any.map(row))
 }
 
-/// All tables.
-pub fn section(run: &Table) -> String {
+/// Returns all tables.
+pub fn tables(run: &Table) -> String {
     let targets = run.values(|key| &key.target);
     let columns: Vec<_> = targets.iter().map(|target| processor(target)).collect();
     let columns: Vec<_> = columns.iter().map(String::as_str).collect();
@@ -127,16 +115,7 @@ fn of_picture(run: &Table, picture: &str, targets: &[&str], columns: &[&str]) ->
 #[cfg(test)]
 mod tests {
     use super::super::table::Table;
-    use super::{MARKS, replaced, section};
-
-    #[test]
-    fn the_section_stands_between_the_marks_and_nothing_else_changes() {
-        let document = format!("before\n{}\nold\n{}\nafter\n", MARKS[0], MARKS[1]);
-        let new = replaced(&document, "new\n").unwrap();
-        assert_eq!(new, format!("before\n{}\n\nnew\n\n{}\nafter\n", MARKS[0], MARKS[1]));
-        assert_eq!(replaced(&new, "new\n").unwrap(), new);
-        assert!(replaced("before\nafter\n", "new").is_err());
-    }
+    use super::tables;
 
     #[test]
     fn every_row_is_shown_and_a_target_that_lacks_it_has_a_dash() {
@@ -147,7 +126,7 @@ mod tests {
              thumbv6m-none-eabi,Full,pan,constant,frame,extend,182861\n\
              thumbv6m-none-eabi,Full,any,-,copy,-,1625\n",
         );
-        let text = section(&run.unwrap());
+        let text = tables(&run.unwrap());
         for line in [
             "| Full | edge | - | 56.29 | – |",
             "| Full | sweep-alone | - | 118.26 | 69.19 |",
