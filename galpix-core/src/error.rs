@@ -1,14 +1,14 @@
-//! What can be refused, and only while something is set up: after that, oddities are counted.
+//! The errors of setup functions. After setup nothing fails: irregularities are counted in a tally.
 
 use core::fmt;
 
-/// Why a bit budget cannot exist. Each sentence says the remedy.
+/// Why a bit budget or a record cannot exist. Each message says how to correct it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum BudgetError {
     /// The extent, the recognition time or the propagation time is zero.
     Zero,
-    /// `tau_prop` is 1: the technique extrapolates nothing.
+    /// `tau_prop` is 1: nothing is extrapolated.
     PropagationTooShort,
     /// Equation (8) leaves no integer bit for the velocity.
     VelocityVanishes {
@@ -22,39 +22,39 @@ pub enum BudgetError {
     },
     /// A field would be wider than the arithmetic allows.
     FieldTooWide {
-        /// Bits asked for.
+        /// Bits requested.
         bits: u32,
-        /// Bits possible.
+        /// Largest possible number of bits.
         most: u32,
     },
     /// More bits were shaved off than there are.
     ShavedAway,
-    /// The velocity has fewer fraction bits than the acceleration, so that adding them would throw bits away.
+    /// The velocity has fewer fraction bits than the acceleration, so that their sum would lose bits.
     VelocityCoarserThanAcceleration {
         /// Fraction bits of the velocity.
         velocity: u32,
         /// Fraction bits of the acceleration.
         acceleration: u32,
     },
-    /// The depth field has fewer bits than the display has depth bins.
+    /// The depth field has fewer bits than are needed to number the depth bins of the display.
     DepthTooCoarse {
         /// Bits of the depth field.
         bits: u32,
-        /// Bits of the number of bins.
+        /// Base-2 logarithm of the number of bins.
         needed: u32,
     },
-    /// A galpixel would need more words than the engine carries.
+    /// A galpixel would need more than [`crate::record::MAX_WORDS`] words.
     RecordTooLong {
-        /// Bits a galpixel.
+        /// Bits of a galpixel.
         bits: u32,
-        /// Bits possible.
+        /// Largest possible number of bits.
         most: u32,
     },
-    /// The layout has an acceleration and no velocity, or a depth motion and no depth.
+    /// The layout has an acceleration but no velocity, or a depth motion but no depth or no velocity.
     FieldWithoutItsBase,
     /// A colour channel has no bit, or more than 8.
     ChannelBits {
-        /// Bits asked for.
+        /// Bits requested.
         bits: u32,
     },
 }
@@ -74,27 +74,29 @@ impl fmt::Display for BudgetError {
             ),
             Self::AccelerationVanishes { integer_bits } => write!(
                 f,
-                "equation (9) gives {integer_bits} integer bits for the acceleration: raise the extent, lower recog, or \
-                 choose a layout without acceleration"
+                "equation (9) gives {integer_bits} integer bits for the acceleration: raise the extent, lower recog, \
+                 or choose a layout without acceleration"
             ),
             Self::FieldTooWide { bits, most } => write!(
                 f,
-                "a field of {bits} bits is more than the {most} that one word's arithmetic holds: lower the extent or prop, \
-                 raise recog, or shave bits off"
+                "a field of {bits} bits is more than the {most} that one word's arithmetic holds: lower the extent or \
+                 prop, raise recog, or shave bits off"
             ),
             Self::ShavedAway => f.write_str("more bits are shaved off than the field has: shave fewer"),
             Self::VelocityCoarserThanAcceleration { velocity, acceleration } => write!(
                 f,
-                "the velocity has {velocity} fraction bits and the acceleration {acceleration}: shave the acceleration at \
-                 least as much as the velocity"
+                "the velocity has {velocity} fraction bits and the acceleration {acceleration}: shave the acceleration \
+                 at least as much as the velocity"
             ),
             Self::DepthTooCoarse { bits, needed } => write!(
                 f,
-                "a depth field of {bits} bits cannot hold 2^{needed} depth bins: use more depth bits or a smaller extent in z"
+                "a depth field of {bits} bits cannot hold 2^{needed} depth bins: use more depth bits or a smaller \
+                 extent in z"
             ),
             Self::RecordTooLong { bits, most } => write!(
                 f,
-                "a galpixel of {bits} bits is more than the {most} that the engine carries: leave fields out or shave bits off"
+                "a galpixel of {bits} bits is more than the {most} that the engine carries: leave fields out or shave \
+                 bits off"
             ),
             Self::FieldWithoutItsBase => f.write_str(
                 "acceleration needs velocity, and depth motion needs depth and velocity: add what is missing",
@@ -106,20 +108,20 @@ impl fmt::Display for BudgetError {
 
 impl core::error::Error for BudgetError {}
 
-/// Why a map cannot be laid over the memory that was lent.
+/// Why a map or its companions cannot be set up. Each message says how to correct it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum SetupError {
-    /// The memory lent is too short.
+    /// A caller-provided buffer is too short.
     TooShort {
-        /// What the memory is for.
+        /// What the buffer is for.
         plane: &'static str,
         /// Words needed.
         need: usize,
-        /// Words lent.
+        /// Words provided.
         have: usize,
     },
-    /// The map, margin included, has no cell or more than can be addressed.
+    /// The map, margin included, has no cell or more cells than can be addressed.
     Size {
         /// Columns.
         width: u32,
@@ -128,7 +130,7 @@ pub enum SetupError {
     },
     /// Two maps that work together have different grids.
     GridsDiffer,
-    /// Objects are to be told apart in maps of a layout without tags.
+    /// The operation identifies objects by their tags, and the layout has no tag.
     NoTag,
 }
 
@@ -136,16 +138,17 @@ impl fmt::Display for SetupError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::TooShort { plane, need, have } => {
-                write!(f, "the {plane} needs {need} words and {have} were lent: lend a longer slice")
+                write!(f, "the {plane} needs {need} words and {have} were provided: provide a longer slice")
             }
             Self::Size { width, height } => write!(
                 f,
-                "a map of {width}x{height} cells cannot be laid out: both sides must be 1 to 32768, margin included, and \
+                "a map of {width}x{height} cells cannot be made: both sides must be 1 to 32768, margin included, and \
                  the cells at most 2^28"
             ),
-            Self::GridsDiffer => f.write_str("the two maps have different grids: lay both over the same one"),
+            Self::GridsDiffer => f.write_str("the two maps have different grids: make both over the same one"),
             Self::NoTag => f.write_str(
-                "the layout has no tag, so that objects cannot be told apart: choose one with tag bits, as `Layout::TAGGED`",
+                "the layout has no tag, so that objects cannot be told apart: choose one with tag bits, as \
+                 `Layout::TAGGED`",
             ),
         }
     }

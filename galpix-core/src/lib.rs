@@ -1,31 +1,34 @@
 //! Galpixmaps in fixed point: pixels that carry their own motion.
 //!
-//! A renderer delivers a few pictures a second; a display shows a hundred. Between two pictures every pixel of a
-//! *galpixmap* goes on moving by itself: it carries position, velocity and acceleration (a *galpixel*, J. P. Costella,
-//! "Motion Extrapolation at the Pixel Level", 1993), and each frame moves all of them with additions and shifts only.
+//! A renderer delivers a few images a second; a display shows a hundred. Between two images every pixel of a
+//! *galpixmap* keeps moving: it carries position, velocity and acceleration (a *galpixel*, J. P. Costella, "Motion
+//! Extrapolation at the Pixel Level", 1993), and each frame moves all galpixels with additions and shifts only.
 //!
-//! One frame has these stages; [`stages`] has each of them alone:
+//! A frame has these stages; the module [`stages`] exports each of them separately:
 //!
-//! 1. **propagate**: `r += v + a/2`, `v += a`, and the best-fitting cell
-//! 2. **resolve**: the nearest of those that want a cell gets it
-//! 3. **edge**: marks the cells on the edge of a surface
-//! 4. **fill**: puts something where nothing arrived, by a [`FillMode`]
-//! 5. [`inpaint`], where a controller asks for more: fills what was uncovered from all that is known around it
-//! 6. [`scan_out`]: rows of colour for a display, under an [`overlay`] where one is pinned
+//! 1. **propagate** applies `r += v + a/2` and `v += a`, and finds the best-fitting cell.
+//! 2. **resolve** keeps the nearest of the galpixels that arrive at the same cell.
+//! 3. **edge** marks the cells on the edge of a surface.
+//! 4. **fill** fills the cells at which nothing arrived, as the [`FillMode`] says.
+//! 5. [`inpaint`] is optional: it fills what was just unobscured from all that is known around it.
+//! 6. [`scan_out`] delivers rows of colour to a display, with an [`overlay`] if one is pinned.
 //!
-//! A [`Controller`] makes frames from two maps that take turns, [`rolling::Rolling`] from one and a window of rows,
-//! [`layers::Layers`] from several maps that are shown together. Each has a constant-time twin of its step where the
-//! instructions must not depend on the picture. A map is a [`Galpixmap`] over a [`Grid`] in a caller-provided buffer; what
-//! its galpixels carry is a [`Layout`], how wide their fields are is [`Bits`], and both together are a [`Format`], fixed at
-//! compile time ([`Static`]) or chosen at run time ([`Dynamic`]) with the same bits. [`objects`] are replaced one by one,
-//! [`disocclusion`] says which hidden samples an update needs, [`ddoc`] renders an image that holds some of them.
+//! A [`Controller`] makes frames with two maps that it swaps, [`rolling::Rolling`] with one map and a window of rows,
+//! and [`layers::Layers`] composes several maps. `Controller` and `Layers` also have a constant-time step, whose
+//! instructions do not depend on the picture. A map is a [`Galpixmap`] over a [`Grid`] in a caller-provided buffer. A
+//! [`Layout`] says which fields its galpixels carry, [`Bits`] says how wide they are, and a [`Format`] combines both:
+//! [`Static`] at compile time or [`Dynamic`] at run time, with the same results. [`objects`] replaces objects one by
+//! one, [`disocclusion`] finds the hidden samples that an update needs, and [`ddoc`] renders an image that contains
+//! some of them.
 //!
-//! Nothing here allocates, floats, panics or wraps once a map is set up: errors at the border, counts inside.
+//! The crate does not allocate and uses no floating point. Setup functions return errors; after setup nothing panics
+//! and no field wraps: what is out of the ordinary is counted in a [`Tally`].
 //!
 //! ```
 //! use galpix_core::fixed::types::I32F32;
 //! use galpix_core::{
-//!     Bits, Controller, Demand, Galpixel, Galpixmap, Grid, Layout, Margin, Profile, Scratch, Settings, SetupError, Static,
+//!     Bits, Controller, Demand, Galpixel, Galpixmap, Grid, Layout, Margin, Profile, Scratch, Settings, SetupError,
+//!     Static,
 //! };
 //!
 //! /// A panel of 64 pixels, recognition in 8 frames, an update every 16.
@@ -36,13 +39,13 @@
 //! }
 //!
 //! fn main() -> Result<(), SetupError> {
-//!     // Row starts, and two maps of 64 x 4 cells, two words each.
+//!     // The table of row starts, and two maps of 64 x 4 cells with two words a cell.
 //!     let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
 //!     let grid = Grid::new(64, 4, Margin::NONE, &mut rows)?;
 //!     let mut front = Galpixmap::new(grid, Static::<Panel>::new(), &mut front)?;
 //!     let back = Galpixmap::new(grid, Static::<Panel>::new(), &mut back)?;
 //!
-//!     // A white galpixel that moves right by three quarters of a cell a frame.
+//!     // A white galpixel that moves right by three quarters of a cell in each frame.
 //!     let velocity = [I32F32::lit("0.75"), I32F32::ZERO, I32F32::ZERO];
 //!     front.store(10, 2, &Galpixel { colour: [255; 3], velocity, ..Galpixel::default() });
 //!
@@ -71,14 +74,14 @@ pub mod inpaint;
 pub mod layers;
 pub mod objects;
 
-/// Formats in full: components of a budget, channels of a colour, fields and arithmetic of a record.
+/// The parts of a format: components of a budget, channels of a colour, fields and arithmetic of a record.
 pub mod record {
     pub use crate::format::budget::{Component, Shave, WIDEST_FIELD};
     pub use crate::format::colour::{Channel, luminosity};
     pub use crate::format::record::{Field, MAX_WORDS, Record, Scale};
 }
 
-/// The stages of a frame one by one, and their arithmetic.
+/// The stages of a frame as separate functions, and their arithmetic.
 pub mod stages {
     pub use crate::frame::edge::{laplacian, mark, on_edge, threshold_for_depth, threshold_for_speed, words};
     pub use crate::frame::fill::{FILLED, fill};
@@ -93,14 +96,14 @@ pub mod scan_out {
     pub use crate::output::scan_out::{PanelColour, View};
 }
 
-/// Cells pinned over the picture.
+/// Cells that are pinned over the picture.
 pub mod overlay {
     #[cfg(feature = "embedded-graphics")]
     pub use crate::output::overlay::Canvas;
     pub use crate::output::overlay::{Overlay, row};
 }
 
-/// One map in little more than half the memory.
+/// Frames with a single map, in little more than half the memory of two.
 pub mod rolling {
     pub use crate::fast::rolling::{Rolling, reach, rows};
 }

@@ -1,21 +1,24 @@
 //! The depth discontinuity occlusion camera (DDOC): a camera that looks a little around each edge of what it sees.
 //!
-//! A depth image holds nothing of what is hidden behind an edge, so a view from beside it has holes there. The DDOC moves
-//! what is barely hidden to the visible side of the edge and squeezes what is visible there to make room: one image, one
-//! layer, that holds both. Where it moves what is a *distortion map*, made from the depths of the plain image, and any
-//! place of the scene is projected by one look-up in it (equation 1).
+//! A depth image holds nothing of what is hidden behind an edge, so a view from another place has holes there. The DDOC
+//! moves what is barely hidden to the visible side of the edge and squeezes what is visible there to make room. The
+//! result is one image with one layer that holds both. A *distortion map*, made from the depths of the plain image,
+//! says how far each sample is moved; one look-up in it projects any place of the scene (equation 1).
 //!
-//! 1. [`edges`]: which cells are on an edge, and which way it faces (step 2)
-//! 2. [`direction`]: the normal of a line through cells, by least squares (step 3)
-//! 3. [`splat`]: which cells each of them is to distort (steps 3 to 5)
-//! 4. [`splat::Splat::full`] and [`splat::Splat::share`]: how far (step 6 and equation 1)
+//! 1. Find the cells that are on an edge, and the direction that each faces: the normal of a line through cells, by
+//!    least squares (steps 2 and 3 of section 3.2).
+//! 2. Find the cells that each of them distorts, its *splat* (steps 3 to 5).
+//! 3. Look up how far a place is moved (step 6 and equation 1).
 //!
-//! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/ddoc.md` tells how the paper was read.
+//! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/ddoc.md` says how the paper was
+//! read.
 //!
-//! **Numbers.** Depths are words of up to 28 bits, 0 the nearest, linear in *inverse* distance (`1 - near / z`): what the
-//! paper has linear in `1/z` is linear in them. Places and lengths have [`FRACTION_BITS`] fraction bits, whole numbers being
-//! the middles of cells; directions [`direction::FRACTION_BITS`]. There are multiplications, and one division of 32 bits a
-//! place that is moved; nothing overflows, and nothing panics.
+//! **Numbers.** Depths are words of up to 28 bits, 0 the nearest, linear in *inverse* distance (`1 - near / z`): what
+//! the paper has linear in `1/z` is linear in them. Places and lengths are in units of 1 / [`ONE`] cell; the
+//! multiples of [`ONE`] are the middles of cells. Nothing overflows, and nothing panics.
+//!
+//! *Cost:* multiplications, two of 64 bits for each cell of a window; two roots and two divisions for each edge cell,
+//! and a root for each conflict; at most three divisions of 32 bits for a place that is looked up.
 //!
 //! ```
 //! use galpix_core::ddoc::{DistortionMap, ONE, Settings, Splat};
@@ -31,8 +34,8 @@
 //! let (map, tally) = DistortionMap::new(grid, &depths, &settings, &mut owners, &mut splats)?;
 //! assert_eq!(tally.splats, 16);
 //!
-//! // Column 15 is the last of the near half. What is far and hidden two cells behind it is moved right by three, to where it
-//! // is seen; what is near stays.
+//! // Column 15 is the last of the near half. What is far and hidden two cells behind it is moved right by three cells, to
+//! // where it is seen; what is near stays.
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 9000), [3 * ONE, 0]);
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 1000), [0, 0]);
 //! # Ok::<(), galpix_core::SetupError>(())
@@ -46,47 +49,46 @@ mod splat;
 mod tests;
 
 use crate::error::SetupError;
-use crate::format::Format;
 use crate::frame::edge;
-use crate::map::Galpixmap;
-use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 use direction::along;
+use edges::DepthImage;
 
 pub use splat::Splat;
 
 /// Fraction bits of places and lengths.
-pub const FRACTION_BITS: u32 = 8;
+const FRACTION_BITS: u32 = 8;
 
-/// One cell.
+/// One cell, in units of places and lengths.
 pub const ONE: i32 = 1 << FRACTION_BITS;
 
-/// The largest radius, cells.
+/// The largest radius, in cells.
 pub const MOST_RADIUS: u32 = 255;
 
-/// An asymmetry of 1: the hidden band is as wide as the visible one.
+/// The smallest asymmetry, 1 in sixteenths: the hidden band is as wide as the visible one.
 pub const SYMMETRIC: u32 = 16;
 
-/// What a distortion map is to be.
+/// The settings of a distortion map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
-    /// D of the paper: how far behind an edge samples are fetched, at most. Cells, 1 to [`MOST_RADIUS`].
+    /// D of the paper: the largest distance behind an edge from which samples are moved, in cells, 1 to
+    /// [`MOST_RADIUS`].
     pub radius: u32,
-    /// a_f of the paper, in sixteenths ([`SYMMETRIC`] to 255): `radius` cells of what is hidden are put into the first half of
-    /// `radius / a_f` cells beside the edge.
+    /// a_f of the paper, in sixteenths ([`SYMMETRIC`] to 255): `radius` hidden cells are moved into the first half of
+    /// `radius / a_f` cells on the visible side of the edge.
     pub asymmetry: u32,
-    /// From which second difference of the depths on there is an edge, in units of the depth's last bit.
+    /// The second difference of depths above which a cell is on an edge, in units of the depth's last bit.
     pub threshold: u32,
-    /// Cells to each side of an edge's cell among which the line is laid that gives its direction, 1 to 15.
+    /// Cells to each side of an edge cell in the window to which the line that gives its direction is fitted, 1 to 15.
     pub window: u32,
-    /// Directions conflict if the cosine of the angle between them is not above this, in units of 2^-14. 0: from 90 degrees
-    /// on; -2^15 or less: never.
+    /// The largest cosine of the angle between two directions that conflict, in units of 2^-14. 0: they conflict from
+    /// 90 degrees on; -2^15 or less: never.
     pub conflict: i32,
 }
 
 impl Settings {
-    /// Settings for depths of `depth_bits` bits: 16 cells, symmetric.
+    /// Returns settings for depths of `depth_bits` bits: a radius of 16 cells, symmetric.
     #[must_use]
     pub const fn for_depth(depth_bits: u32) -> Self {
         Self {
@@ -98,7 +100,7 @@ impl Settings {
         }
     }
 
-    /// The settings, each within its range.
+    /// Returns the settings, each clamped to its range.
     #[must_use]
     const fn clamped(self) -> Self {
         const fn clamp(value: u32, low: u32, high: u32) -> u32 {
@@ -110,7 +112,7 @@ impl Settings {
                 value
             }
         }
-        // A little beyond the longest unit vectors' product, which rounding may make larger than 1.
+        // Beyond the product of any two unit vectors, which rounding may make larger than 1.
         const NEVER: i32 = 1 << (direction::FRACTION_BITS + 1);
         Self {
             radius: clamp(self.radius, 1, MOST_RADIUS),
@@ -128,7 +130,7 @@ impl Settings {
     }
 }
 
-/// What making a distortion map counted.
+/// Counts of a distortion map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tally {
@@ -136,17 +138,17 @@ pub struct Tally {
     pub edges: u32,
     /// Of these, cells that became the centre of a splat.
     pub splats: u32,
-    /// Of these, cells for whose splat no memory was lent.
+    /// Of these, cells for whose splat no memory was provided.
     pub dropped: u32,
-    /// Splats whose radius a conflict made smaller.
+    /// Splats that a conflict made smaller.
     pub shrunk: u32,
-    /// Cells whose distortion was deleted again, because their splat had become too small for them.
+    /// Cells whose distortion was deleted, because their splat had become too small for them.
     pub orphans: u32,
     /// Cells that are distorted.
     pub distorted: u32,
 }
 
-/// A distortion map over lent memory.
+/// A distortion map in caller-provided buffers.
 #[derive(Clone, Copy, Debug)]
 pub struct DistortionMap<'m> {
     grid: Grid<'m>,
@@ -157,12 +159,15 @@ pub struct DistortionMap<'m> {
 }
 
 impl<'m> DistortionMap<'m> {
-    /// The distortion map of a picture with these depths, one a cell of `grid`, row by row.
+    /// Makes the distortion map of a picture with these depths, one for each cell of `grid`, row by row.
     ///
-    /// `owners` is a word a cell; `splats` one a cell on the near side of an edge. Where there are more of these than `splats`
-    /// has room for, the last ones are left out and counted. Settings outside of their ranges are clamped.
+    /// `owners` holds one word for each cell; `splats` one splat for each cell on the near side of an edge. If there
+    /// are more such cells than `splats` has room for, the last ones are left out and counted. Settings outside of
+    /// their ranges are clamped.
     ///
-    /// *Errors:* `depths` or `owners` has fewer words than the grid cells.
+    /// *Errors:* `depths` or `owners` has fewer words than the grid has cells.
+    ///
+    /// *Cost:* for each edge cell a window of `(2 window + 1)^2` cells, and two squares of `(2 radius + 1)^2` cells.
     pub fn new(
         grid: Grid<'m>,
         depths: &[u32],
@@ -181,33 +186,27 @@ impl<'m> DistortionMap<'m> {
         };
         let settings = settings.clamped();
         let mut tally = Tally::default();
-        let splats = edges::gather(&grid, depths, &settings, owners, splats, &mut tally);
+        let image = DepthImage { grid: &grid, depths, settings: &settings };
+        let splats = image.gather(owners, splats, &mut tally);
         splat::cast(&grid, &settings, owners, splats);
         splat::shrink(&grid, &settings, owners, splats, &mut tally);
         splat::delete_orphans(&grid, &settings, owners, splats, &mut tally);
         Ok((Self { grid, owners, splats, asymmetry: settings.asymmetry }, tally))
     }
 
-    /// The grid.
-    #[must_use]
-    pub const fn grid(&self) -> &Grid<'m> {
-        &self.grid
-    }
-
-    /// The splat that distorts the cell in which `place` lies, if any does.
+    /// Returns the splat that distorts the cell in which `place` lies, if any does.
     #[inline(always)]
-    #[must_use]
-    pub fn splat(&self, place: [i32; 2]) -> Option<&Splat> {
+    fn splat(&self, place: [i32; 2]) -> Option<&Splat> {
         let [x, y] = place.map(|coordinate| (coordinate >> (FRACTION_BITS - 1)).wrapping_add(1) >> 1);
         let owner = *self.owners.get(self.grid.cell(x, y)? as usize)?;
         self.splats.get(owner.wrapping_sub(1) as usize)
     }
 
-    /// By how much what is at `place` in the plain picture, at this depth, is moved: equation 1 without its last line.
+    /// Returns by how much what is at `place` in the plain picture, at this depth, is moved: equation 1 without its
+    /// last line. 0 outside of the map.
     ///
-    /// The splat is that of the cell in which the place lies; the distance from the edge is the place's own, not the cell's,
-    /// so that the distortion is continuous within a splat. Nothing is moved outside of the map. *Rounding:* down by less than
-    /// three units of the last of the [`FRACTION_BITS`].
+    /// Uses the splat of the cell in which the place lies, and the distance of the place itself, not of its cell, from
+    /// the edge, so that the distortion is continuous within a splat. *Rounding:* down, by less than three units.
     #[inline(always)]
     #[must_use]
     pub fn displacement(&self, place: [i32; 2], depth: u32) -> [i32; 2] {
@@ -220,22 +219,13 @@ impl<'m> DistortionMap<'m> {
         }
     }
 
-    /// Where the DDOC sees what the plain camera sees at `place`, at this depth: equation 1.
+    /// Returns where the DDOC sees what the plain camera sees at `place`, at this depth: equation 1. Wraps for places
+    /// beyond the range of `i32`.
     #[inline(always)]
     #[must_use]
     pub fn displaced(&self, place: [i32; 2], depth: u32) -> [i32; 2] {
         let [by_x, by_y] = self.displacement(place, depth);
         let [x, y] = place;
         [x.wrapping_add(by_x), y.wrapping_add(by_y)]
-    }
-}
-
-/// Copies the depths of a map, for [`DistortionMap::new`]: cells without a fully-fledged galpixel count as `empty`. Further
-/// words of `depths` stay as they are.
-pub fn depths<F: Format>(map: &Galpixmap<'_, F>, empty: u32, depths: &mut [u32]) {
-    let bits = map.record().depth().bits;
-    for (to, key) in depths.iter_mut().zip(map.keys(0..map.grid().cells() as usize)) {
-        // The class stands above the depth, and a galpixel's is 0.
-        *to = if key >> bits == Class::Galpixel as u32 { key } else { empty };
     }
 }

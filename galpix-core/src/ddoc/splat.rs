@@ -1,42 +1,45 @@
 //! The splats of a distortion map: steps 3 to 6 of section 3.2.
 //!
-//! Each cell on the near side of an edge is the centre of a *splat*, a circle of cells that it may distort: on the hidden side
-//! up to the radius `r`, on the visible side up to `r / a_f`. The cells store which splat is theirs, not a copy of it.
+//! Each cell on the near side of an edge is the centre of a *splat*, a circle of cells that it may distort: on the
+//! hidden side up to the radius `r`, on the visible side up to `r / a_f`. A cell stores the number of its splat, not a
+//! copy of it.
 //!
-//! - **Of two splats** the one whose centre is closer has a cell; of two as close the one that comes first, row by row.
-//! - **A conflict** is a cell that a splat covers and another one owns whose direction is 90 degrees off or more. The splat
-//!   shrinks until the closest such cell is just outside. Owners do not change in the meantime, so the order does not matter.
-//! - **Orphans** are cells that have become too far for their owner; they are not distorted any more.
+//! - **Owner.** Of two splats that cover a cell, the one whose centre is closer owns it; of two equally close ones the
+//!   first, row by row.
+//! - **Conflict.** A splat conflicts with a cell that it covers and that a splat of another direction owns, 90 degrees
+//!   off or more. It shrinks until the closest such cell is just outside of it. Owners do not change in the meantime,
+//!   so the order does not matter.
+//! - **Orphans** are cells that have become too far from the centre of their owner; they are not distorted any more.
 
 use super::direction;
 use super::{FRACTION_BITS, ONE, Settings, Tally};
 use crate::inpaint::root;
 use crate::map::grid::Grid;
 
-/// One cell of an edge, and what it distorts around it.
+/// One cell of an edge, and the circle that it distorts. The caller provides a buffer of these.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Splat {
     /// Column and row of the centre.
-    pub cell: [u16; 2],
-    /// Unit vector away from what is near, [`direction::FRACTION_BITS`] fraction bits.
-    pub direction: [i16; 2],
-    /// z_n: the depth of what is near; up to it nothing is moved.
-    pub near: u32,
-    /// z_f: the depth of what is far; from it on all is moved alike.
-    pub far: u32,
-    /// How far the hidden side reaches, [`FRACTION_BITS`] fraction bits.
-    pub radius: u32,
+    pub(super) cell: [u16; 2],
+    /// Unit vector away from the near side, with [`direction::FRACTION_BITS`] fraction bits.
+    pub(super) direction: [i16; 2],
+    /// z_n: the depth of the near side; up to it nothing is moved.
+    pub(super) near: u32,
+    /// z_f: the depth of the far side; from it on everything is moved alike.
+    pub(super) far: u32,
+    /// Extent of the hidden side, with [`FRACTION_BITS`] fraction bits.
+    pub(super) radius: u32,
 }
 
 impl Splat {
-    /// The signed distance of `place` from the edge, [`FRACTION_BITS`] fraction bits: negative on the hidden side.
+    /// Returns the signed distance of `place` from the edge, with [`FRACTION_BITS`] fraction bits: negative on the
+    /// hidden side.
     ///
-    /// Exact to the last bit for places within 256 cells of the centre; beyond, where nothing is asked, it may wrap.
+    /// Exact to the last bit for places within 256 cells of the centre; beyond, where no place is looked up, it may
+    /// wrap.
     #[inline(always)]
-    #[must_use]
-    pub fn distance(&self, place: [i32; 2]) -> i32 {
-        // No index that is known at run time only.
+    pub(super) fn distance(&self, place: [i32; 2]) -> i32 {
         let (([x, y], [column, row]), [towards_x, towards_y]) = ((place, self.cell), self.direction);
         let along = |coordinate: i32, centre: u16, towards: i16| {
             coordinate.wrapping_sub(i32::from(centre) << FRACTION_BITS).wrapping_mul(i32::from(towards))
@@ -45,18 +48,17 @@ impl Splat {
         x.wrapping_add(y) >> direction::FRACTION_BITS
     }
 
-    /// d_f: how far what is `distance` from the edge is moved at full depth (figure 5, with the asymmetry `a`).
+    /// Returns d_f: how far what is `distance` from the edge is moved at full depth (figure 5, with the asymmetry `a`).
     ///
     /// ```text
     /// -r <= x <= 0:    [-r, 0]   -> [0, r/2a]        d = (x + r) / 2a - x
     ///  0 <= x <= r/a:  [0, r/a]  -> [r/2a, r/a]      d = (r/a - x) / 2
     /// ```
     ///
-    /// Without asymmetry both are `(r - x) / 2`. What lies beyond counts as if it lay on the border. `asymmetry` is in
-    /// sixteenths. *Rounding:* down, by less than two units.
+    /// Without asymmetry both are `(r - x) / 2`. Places beyond the splat count as if they were on its border.
+    /// `asymmetry` is in sixteenths. *Rounding:* down, by less than two units.
     #[inline(always)]
-    #[must_use]
-    pub fn full(&self, distance: i32, asymmetry: u32) -> i32 {
+    pub(super) fn full(&self, distance: i32, asymmetry: u32) -> i32 {
         let radius = self.radius as i32;
         let room = self.room(asymmetry) as i32;
         if distance > 0 {
@@ -69,21 +71,19 @@ impl Splat {
         }
     }
 
-    /// How far the visible side reaches: r / a.
+    /// Returns the extent of the visible side: r / a.
     #[inline(always)]
-    #[must_use]
-    pub const fn room(&self, asymmetry: u32) -> u32 {
+    pub(super) const fn room(&self, asymmetry: u32) -> u32 {
         match (self.radius << 4).checked_div(asymmetry) {
             Some(room) => room,
             None => 0,
         }
     }
 
-    /// d(z): the share of `full` that is due at `depth`, a ramp from z_n to z_f. *Rounding:* towards 0; depths that differ by
-    /// more than 16 bits count without their last ones.
+    /// Returns d(z): the share of `full` at `depth`, a ramp from z_n to z_f. *Rounding:* towards 0; where the
+    /// difference of depths has more than 16 bits, only its upper 16 count.
     #[inline(always)]
-    #[must_use]
-    pub const fn share(&self, depth: u32, full: i32) -> i32 {
+    pub(super) const fn share(&self, depth: u32, full: i32) -> i32 {
         if depth <= self.near {
             return 0;
         }
@@ -92,28 +92,27 @@ impl Splat {
         }
         let (into, whole) = (depth - self.near, self.far - self.near);
         let shift = 16u32.saturating_sub(whole.leading_zeros());
-        // Up to 16 bits, and a length of up to 255 cells: their product is a word.
+        // 16 bits times a length of up to 255 cells: the product is a word.
         match ((into >> shift) * full as u32).checked_div(whole >> shift) {
             Some(share) => share as i32,
             None => full,
         }
     }
 
-    /// Whether the splat covers the cell that is `x` and `y` away from its centre.
+    /// Returns whether the splat covers the cell that is `x` and `y` away from its centre.
     #[inline(always)]
-    #[must_use]
     pub(super) fn covers(&self, [x, y]: [i32; 2], asymmetry: u32) -> bool {
         let reach = if self.is_visible([x, y]) { self.room(asymmetry) } else { self.radius };
         (x * x + y * y) as u32 <= (reach * reach) >> (2 * FRACTION_BITS)
     }
 
-    /// Whether the cell that is `x` and `y` away from the centre is on the visible side.
+    /// Returns whether the cell that is `x` and `y` away from the centre is on the visible side.
     #[inline(always)]
     pub(super) const fn is_visible(&self, [x, y]: [i32; 2]) -> bool {
         x * self.direction[0] as i32 + y * self.direction[1] as i32 > 0
     }
 
-    /// The largest radius with which the cell that is `x` and `y` away is not covered.
+    /// Returns the largest radius with which the cell that is `x` and `y` away from the centre is not covered.
     #[inline(always)]
     pub(super) fn outside(&self, [x, y]: [i32; 2], asymmetry: u32) -> u32 {
         // The largest root whose square is below that of the distance.
@@ -124,7 +123,8 @@ impl Splat {
     }
 }
 
-/// The cells of the square around a splat: how far they are from its centre, and their owner, which may be changed.
+/// Visits the cells of the square around a splat: their places from its centre, and their owners, which `visit` may
+/// change.
 #[inline(always)]
 fn around(grid: &Grid<'_>, owners: &mut [u32], splat: &Splat, mut visit: impl FnMut([i32; 2], &mut u32)) {
     let reach = (splat.radius >> FRACTION_BITS) as i32;
@@ -140,7 +140,7 @@ fn around(grid: &Grid<'_>, owners: &mut [u32], splat: &Splat, mut visit: impl Fn
     }
 }
 
-/// Step 3: each splat takes the cells that it covers and whose owner's centre, if they have one, is farther.
+/// Gives each splat the cells that it covers and that no splat with a closer centre owns (step 3).
 pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], splats: &[Splat]) {
     for (number, splat) in (1..).zip(splats) {
         around(grid, owners, splat, |[dx, dy], owner| {
@@ -159,7 +159,7 @@ pub(super) fn cast(grid: &Grid<'_>, settings: &Settings, owners: &mut [u32], spl
     }
 }
 
-/// Step 4: shrinks splats until no cell that they cover is another's whose direction conflicts with theirs.
+/// Shrinks splats until none covers a cell of a splat whose direction conflicts with its own (step 4).
 pub(super) fn shrink(
     grid: &Grid<'_>,
     settings: &Settings,
@@ -187,7 +187,7 @@ pub(super) fn shrink(
     }
 }
 
-/// Step 5: no cell is distorted by a splat that does not reach it any more.
+/// Takes the owner from cells that it does not cover any more (step 5).
 pub(super) fn delete_orphans(
     grid: &Grid<'_>,
     settings: &Settings,

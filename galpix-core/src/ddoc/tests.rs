@@ -11,7 +11,7 @@ use crate::map::grid::Margin;
 const NEAR: u32 = 100_000;
 const FAR: u32 = 900_000;
 
-/// What a distortion map is made of, to look at.
+/// The parts of a distortion map.
 struct Made {
     owners: Vec<u32>,
     splats: Vec<Splat>,
@@ -19,7 +19,8 @@ struct Made {
     moved: Vec<[i32; 2]>,
 }
 
-/// A picture of `side` x `side` cells with these depths; `moved` is what the map does with the middle of each cell at `FAR`.
+/// Makes the map of a picture of `side` x `side` cells with these depths; `moved` are the displacements of the middles
+/// of the cells at `FAR`.
 fn made(side: u32, settings: &Settings, depth: impl Fn(i32, i32) -> u32) -> Made {
     let cells = || (0..side as i32).flat_map(|y| (0..side as i32).map(move |x| (x, y)));
     let depths: Vec<u32> = cells().map(|(x, y)| depth(x, y)).collect();
@@ -36,7 +37,7 @@ fn settings(radius: u32) -> Settings {
     Settings { radius, ..Settings::for_depth(20) }
 }
 
-/// Nothing conflicts: all radii stay as they are.
+/// Returns settings without conflicts: all radii stay as they are.
 fn without_conflicts(radius: u32) -> Settings {
     Settings { conflict: i32::MIN, ..settings(radius) }
 }
@@ -186,7 +187,8 @@ fn two_edges_back_to_back_share_what_is_between_them() {
 
 #[test]
 fn a_conflict_puts_the_closest_cell_just_outside() {
-    // A gap of 9 cells between two near walls: edges that face each other at columns 19 and 29, 5 cells from the middle.
+    // A gap of 9 cells between two near walls: edges that face each other at columns 19 and 29, 5 cells from the
+    // middle.
     let made = made(48, &settings(12), |x, _| if (20..29).contains(&x) { FAR } else { NEAR });
     assert_eq!(made.tally.shrunk, made.tally.splats);
     for splat in &made.splats {

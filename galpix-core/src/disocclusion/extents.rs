@@ -1,13 +1,16 @@
-//! The extents of a cell, four bytes in a word, and the operations on them that spreading is made of.
+//! The word of a cell in a disocclusion map, and the operations on it that spreading is made of.
 //!
-//! Each extent counts cells, the cell itself included, as far as what is uncovered reaches to that side. A cell that nothing
-//! uncovers holds 0; in a map that is spread every other cell has all four extents at 1 or above.
+//! A word has four bytes, one for each side. The low 7 bits of a byte are the *extent*: the number of cells, the cell
+//! itself included, that are uncovered to that side. A cell that nothing uncovers has extents of 0; in a spread map
+//! every other cell has four extents of at least 1.
 //!
-//! Until the map is spread the top bit of each byte says that the cell takes nothing from a scan on that way: it is *shut*.
+//! Until the map is spread, the top bit of a byte says that the cell takes nothing from a scan in that direction: the
+//! cell is *blocked*.
 
-/// How far what may be uncovered reaches from a cell, the cell itself included; all 0 where nothing is.
+/// How far what may be uncovered extends from a cell, in cells, the cell itself included; all 0 where nothing is
+/// uncovered.
 ///
-/// 0 to [`Self::NO_END`] each, which stands for that many cells and more.
+/// Each extent is 0 to [`Self::NO_END`], which stands for that many cells and more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Extents {
@@ -22,10 +25,10 @@ pub struct Extents {
 }
 
 impl Extents {
-    /// The extent that is handed on without becoming shorter: what reaches so far ends only where its surface does.
+    /// The saturated extent: it is propagated without becoming shorter and ends only where its surface does.
     pub const NO_END: u8 = 127;
 
-    /// The extents that a word of the map holds.
+    /// Returns the extents in a word of the map.
     #[inline(always)]
     #[must_use]
     pub const fn of(word: u32) -> Self {
@@ -33,17 +36,17 @@ impl Extents {
         Self { left, right, above, below }
     }
 
-    /// The word of the map. An extent above [`Self::NO_END`] counts as that.
+    /// Returns the word of the map. Extents above [`Self::NO_END`] count as that.
     #[inline(always)]
     #[must_use]
     pub const fn word(self) -> u32 {
-        const fn held(extent: u8) -> u8 {
+        const fn clamped(extent: u8) -> u8 {
             if extent > Extents::NO_END { Extents::NO_END } else { extent }
         }
-        u32::from_le_bytes([held(self.left), held(self.right), held(self.above), held(self.below)])
+        u32::from_le_bytes([clamped(self.left), clamped(self.right), clamped(self.above), clamped(self.below)])
     }
 
-    /// Whether what is hidden in this cell may be uncovered.
+    /// Returns whether what is hidden in this cell may be uncovered.
     #[inline(always)]
     #[must_use]
     pub const fn covered(self) -> bool {
@@ -54,64 +57,64 @@ impl Extents {
 /// The bits of a word that are extents.
 pub(crate) const EXTENTS: u32 = 0x7f7f_7f7f;
 
-/// The word of a cell that is uncovered by itself: only the cell.
+/// The word of a cell that uncovers only itself.
 pub(crate) const ONLY_ITSELF: u32 = 0x0101_0101;
 
-/// The way in which a scan goes: the lowest bit of the extent that moves with it. That of the opposite way differs in bit 3.
-pub(crate) const TO_THE_LEFT: u32 = 0;
-pub(crate) const TO_THE_RIGHT: u32 = 8;
+/// The directions of scans: the lowest bit of the extent that moves with the scan. Opposite directions differ in bit 3.
+pub(crate) const LEFTWARDS: u32 = 0;
+pub(crate) const RIGHTWARDS: u32 = 8;
 pub(crate) const UPWARDS: u32 = 16;
 pub(crate) const DOWNWARDS: u32 = 24;
 
-/// The extent on the way `WAY`.
+/// Returns the extent in a direction.
 #[inline(always)]
-pub(crate) const fn extent<const WAY: u32>(word: u32) -> u32 {
-    word >> WAY & Extents::NO_END as u32
+pub(crate) const fn extent<const DIRECTION: u32>(word: u32) -> u32 {
+    word >> DIRECTION & Extents::NO_END as u32
 }
 
-/// The bit of a cell that takes nothing on the way `WAY`.
+/// Returns the bit of a cell that takes nothing from a scan in a direction.
 #[inline(always)]
-pub(crate) const fn shut<const WAY: u32>() -> u32 {
-    0x80 << WAY
+pub(crate) const fn blocked<const DIRECTION: u32>() -> u32 {
+    0x80 << DIRECTION
 }
 
-/// The first one with the larger of each of four extents.
+/// Returns, for each of the four extents, the larger one of two words, and the top bits of the bytes of the first word.
 #[inline(always)]
 pub(crate) const fn larger(one: u32, other: u32) -> u32 {
     const TOPS: u32 = !EXTENTS;
-    // No extent has the top bit of its byte: it stays set where the one is not smaller.
+    // Four subtractions at once: no extent has the top bit of its byte, which stays set where `one` is not smaller.
     let not_smaller = (one | TOPS).wrapping_sub(other & EXTENTS) & TOPS;
     let kept = not_smaller.wrapping_sub(not_smaller >> 7) | TOPS;
     other ^ (one ^ other) & kept
 }
 
-/// What a cell says to the next one on the way `WAY` of a scan: its own extents, that one shorter, and nothing behind; 0 where it does
-/// not reach so far.
+/// Returns what a cell propagates to the next one of a scan: its own extents, that in the direction of the scan shorter
+/// by one and that in the opposite direction 1; 0 if its extent does not reach the next cell.
 #[inline(always)]
-pub(crate) const fn handed_on<const WAY: u32>(word: u32) -> u32 {
-    let extents = word & EXTENTS & !(0xff << (WAY ^ 8)) | 1 << (WAY ^ 8);
-    shorter::<WAY>(extents)
+pub(crate) const fn propagated<const DIRECTION: u32>(word: u32) -> u32 {
+    let extents = word & EXTENTS & !(0xff << (DIRECTION ^ 8)) | 1 << (DIRECTION ^ 8);
+    shortened::<DIRECTION>(extents)
 }
 
-/// The same of what a cell without extents was handed.
+/// Returns what a cell without own extents propagates of what it has received, as [`propagated`].
 #[inline(always)]
-pub(crate) const fn shorter<const WAY: u32>(handed: u32) -> u32 {
-    let reach = extent::<WAY>(handed);
+pub(crate) const fn shortened<const DIRECTION: u32>(received: u32) -> u32 {
+    let reach = extent::<DIRECTION>(received);
     let ends = (reach != Extents::NO_END as u32) as u32;
     let reaches = (reach >= 2) as u32;
-    handed.wrapping_sub(ends << WAY) & 0u32.wrapping_sub(reaches)
+    received.wrapping_sub(ends << DIRECTION) & 0u32.wrapping_sub(reaches)
 }
 
-/// A cell with what one before it on the way `WAY` hands on.
+/// Returns the word of a cell after it has received what the one before it in a scan propagates.
 #[inline(always)]
-pub(crate) const fn taken<const WAY: u32>(word: u32, handed: u32) -> u32 {
-    let open = (word & shut::<WAY>() == 0) as u32;
-    larger(word, handed & 0u32.wrapping_sub(open))
+pub(crate) const fn joined<const DIRECTION: u32>(word: u32, received: u32) -> u32 {
+    let open = (word & blocked::<DIRECTION>() == 0) as u32;
+    larger(word, received & 0u32.wrapping_sub(open))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Extents, ONLY_ITSELF, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, handed_on, larger, shut, taken};
+    use super::{DOWNWARDS, Extents, LEFTWARDS, ONLY_ITSELF, RIGHTWARDS, UPWARDS, blocked, joined, larger, propagated};
 
     #[test]
     fn extents_are_compared_each_for_itself() {
@@ -126,20 +129,20 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_hands_on_what_reaches_the_next() {
+    fn a_cell_propagates_what_reaches_the_next() {
         let word = |left, right, above, below| Extents { left, right, above, below }.word();
-        let from = word(3, 2, 127, 1) | shut::<TO_THE_LEFT>() | shut::<UPWARDS>();
-        assert_eq!(handed_on::<TO_THE_LEFT>(from), word(2, 1, 127, 1));
-        assert_eq!(handed_on::<TO_THE_RIGHT>(from), word(1, 1, 127, 1));
-        assert_eq!(handed_on::<UPWARDS>(from), word(3, 2, 127, 1));
-        assert_eq!(handed_on::<{ super::DOWNWARDS }>(from), 0);
+        let from = word(3, 2, 127, 1) | blocked::<LEFTWARDS>() | blocked::<UPWARDS>();
+        assert_eq!(propagated::<LEFTWARDS>(from), word(2, 1, 127, 1));
+        assert_eq!(propagated::<RIGHTWARDS>(from), word(1, 1, 127, 1));
+        assert_eq!(propagated::<UPWARDS>(from), word(3, 2, 127, 1));
+        assert_eq!(propagated::<DOWNWARDS>(from), 0);
         assert_eq!(word(200, 0, 0, 0), 127);
     }
 
     #[test]
-    fn a_cell_takes_nothing_on_a_way_that_is_shut() {
-        let cell = shut::<TO_THE_RIGHT>();
-        assert_eq!(taken::<TO_THE_RIGHT>(cell, ONLY_ITSELF), cell);
-        assert_eq!(taken::<TO_THE_LEFT>(cell, ONLY_ITSELF), cell | ONLY_ITSELF);
+    fn a_cell_takes_nothing_from_a_blocked_direction() {
+        let cell = blocked::<RIGHTWARDS>();
+        assert_eq!(joined::<RIGHTWARDS>(cell, ONLY_ITSELF), cell);
+        assert_eq!(joined::<LEFTWARDS>(cell, ONLY_ITSELF), cell | ONLY_ITSELF);
     }
 }

@@ -1,18 +1,21 @@
-//! Which cells are covered, one bit each, with a single line of memory: for machines that cannot hold a map of extents.
+//! The mask of covered cells, one bit each, with a single line of memory: for machines that cannot hold a map of
+//! extents.
 //!
-//! What [`super::map`] does in one pass down and one pass up, where on the way up the rows are marked anew. Of the line before only one
-//! extent matters, the one that moves with the pass; so that the word of a cell holds it in the place of the opposite one.
+//! Makes the same two passes as [`super::map`]. The pass up marks the rows anew. Of the line before, a pass needs only
+//! the extent that moves with it. The word of a cell holds that extent in the byte of the opposite direction, which has
+//! no part in the pass.
 
-use super::extents::{DOWNWARDS, EXTENTS, UPWARDS, extent, shorter, shut};
+use super::extents::{DOWNWARDS, EXTENTS, UPWARDS, blocked, extent, shortened};
 use super::mark::Marker;
 use super::{Reach, Tally, spread};
 use crate::format::Format;
 use crate::map::Galpixmap;
 
-/// The mask of the cells that [`super::map`] covers: cell `c` in bit `c % 32` of word `c / 32`, as in the edge map.
+/// Writes the mask of the cells that [`map`](super::map()) covers: cell `c` in bit `c % 32` of word `c / 32`, as in the
+/// edge map. Returns the counts, which are those of [`map`](super::map()).
 ///
-/// `mask` must have [`crate::frame::edge::words`] words, and `line` one for each column; what they held does not matter. Cells that are in
-/// none of them are not covered.
+/// `mask` must have [`stages::words`](crate::stages::words) words, and `line` one for each column; what they hold does
+/// not matter. Cells beyond the end of `mask` are left out and not counted. With too short a `line` nothing is covered.
 pub fn cover<F: Format>(front: &Galpixmap<'_, F>, line: &mut [u32], mask: &mut [u32], reach: &Reach) -> Tally {
     F::disocclusion_cover(front, line, mask, reach)
 }
@@ -54,26 +57,28 @@ struct Pass<'m, 'p, F> {
 }
 
 impl<F: Format> Pass<'_, '_, F> {
-    /// The next row of a pass on the way `WAY`: what the line before hands on is in the place of the extent `AGAINST` it.
-    fn row<const WAY: u32, const AGAINST: u32>(&mut self, y: u32) {
-        let Some(start) = self.marker.begin::<WAY>(y, self.line) else { return };
+    /// Handles the next row of a pass in `DIRECTION`. The byte `OPPOSITE` of each word holds what the line before
+    /// propagates.
+    fn row<const DIRECTION: u32, const OPPOSITE: u32>(&mut self, y: u32) {
+        let Some(start) = self.marker.begin::<DIRECTION>(y, self.line) else { return };
         self.marker.rows::<true>(y, self.line, &mut []);
         if let Some(above) = y.checked_sub(1) {
+            // The pairs between the two rows are counted with row `above`.
             let tally = self.marker.tally;
             self.marker.rows::<false>(above, &mut [], self.line);
             self.marker.tally = tally;
         }
-        spread::along(self.line, !(0xff << AGAINST));
+        spread::along(self.line, !(0xff << OPPOSITE));
         for (word, cell) in self.line.iter_mut().zip(start..) {
-            let own = extent::<WAY>(*word);
-            let handed = if *word & shut::<WAY>() == 0 { extent::<AGAINST>(*word) } else { 0 };
-            let others = EXTENTS & !(0x7f << WAY | 0x7f << AGAINST);
-            let covered = u32::from(*word & others | own | handed != 0);
+            let own = extent::<DIRECTION>(*word);
+            let received = if *word & blocked::<DIRECTION>() == 0 { extent::<OPPOSITE>(*word) } else { 0 };
+            let others = EXTENTS & !(0x7f << DIRECTION | 0x7f << OPPOSITE);
+            let covered = u32::from(*word & others | own | received != 0);
             if let Some(mask) = self.mask.get_mut((cell >> 5) as usize) {
                 self.covered += covered & !(*mask >> (cell & 31));
                 *mask |= covered << (cell & 31);
             }
-            *word = shorter::<AGAINST>(own.max(handed) << AGAINST);
+            *word = shortened::<OPPOSITE>(own.max(received) << OPPOSITE);
         }
     }
 }

@@ -1,7 +1,7 @@
-//! The sources: cells beside which something opens, and how far. Algorithm 1 of the supplement.
+//! The sources of a disocclusion map: cells next to which something opens, and how far. Algorithm 1 of the supplement.
 //!
-//! Most neighbours lie on one surface and move nearly alike. They are told by a few comparisons over a run of cells at once; what is
-//! left goes pair by pair.
+//! Most neighbours lie on one surface and move nearly alike. A few comparisons over a run of cells find these pairs at
+//! once; the others are flagged and resolved pair by pair.
 
 use core::ops::Range;
 
@@ -14,25 +14,26 @@ use crate::format::record::{Extract, Field, Record};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// No pass whose extents stay in the rows.
+/// A direction for rows that are not part of a pass: their words hold nothing of a row before.
 pub(crate) const NO_PASS: u32 = u32::MAX;
 
-/// Neighbours that are looked at once. A power of two.
+/// Pairs that are compared at once. A power of two.
 const RUN: usize = if VECTORS { 64 } else { 8 };
 
-/// Pairs that wait at most.
-const WAITING: usize = if VECTORS { 16 } else { 1 };
+/// The most flagged pairs that are collected before they are resolved.
+const PENDING: usize = if VECTORS { 16 } else { 1 };
 
-/// The words of a run of cells that decide whether neighbours go pair by pair: of each field the word of its upper part, and of what spills.
-struct Lanes<'l> {
+/// The words of a run of cells that decide whether neighbours are flagged: of each field the word of its upper part and
+/// the word of its lower one.
+struct RunWords<'l> {
     class: &'l [u32; RUN],
     depth: [&'l [u32; RUN]; 2],
     v: [&'l [u32; RUN]; 2],
     a: [&'l [u32; RUN]; 2],
 }
 
-impl<'l> Lanes<'l> {
-    /// The cells from `cell` on, if there are as many in the map.
+impl<'l> RunWords<'l> {
+    /// Returns the words of the cells from `cell` on, `None` if the map ends before the run does.
     #[inline(always)]
     fn at<F: Format, const ALONG: usize>(front: &'l Galpixmap<'_, F>, cell: u32) -> Option<Self> {
         let record = front.record();
@@ -50,7 +51,7 @@ impl<'l> Lanes<'l> {
         })
     }
 
-    /// Class and depth of a cell as one number, as [`Galpixmap::keys`] has it, above [`key_shift`] bits that say nothing.
+    /// Returns class and depth of a cell as one number, as [`Galpixmap::keys`], above [`key_shift`] unspecified bits.
     #[inline(always)]
     fn key<F: Format>(&self, record: &Record, lane: usize) -> u32 {
         let ([depth, spill], lane) = (self.depth, lane & (RUN - 1));
@@ -62,17 +63,18 @@ impl<'l> Lanes<'l> {
     }
 }
 
-/// The lowest bit of the key in its word, if it is the top of one.
+/// Returns the lowest bit of the key in its word, if the key is at the top of one.
 #[inline(always)]
 fn key_shift<F: Format>(record: &Record) -> Option<u32> {
     if F::FIXED { record.key_field().and_then(Field::at_top) } else { None }
 }
 
-/// By how much keys may differ in any case that are less than `separation` apart, and the bits that then are 0 once this is added; `None` if all pairs are
-/// looked at.
+/// Returns a limit and a mask: two keys are certainly less than `separation` apart if their difference plus the limit
+/// has none of the bits of the mask. `None` if all pairs are flagged. `shift` is that of [`key_shift`].
 fn key_limit(separation: i32, shift: u32) -> Option<(u32, u32)> {
-    // The bits below the key may take 1 away from the difference of two, or add it: a power of two that is less than the separation.
-    // Of keys that are not of empty cells none differ by 3/4 of all numbers, and 1/4 at most is let pass.
+    // The limit is a power of two that is less than the separation: the bits below the key can add 1 to the difference
+    // of two keys, or subtract it. Differences of up to 1/4 of all numbers pass; keys of cells that are not empty
+    // differ by less than 3/4, so that no difference wraps into the range that passes.
     match separation {
         0 => None,
         1 => Some((0, u32::MAX)),
@@ -84,45 +86,46 @@ fn key_limit(separation: i32, shift: u32) -> Option<(u32, u32)> {
     }
 }
 
-/// What a run of pairs has.
+/// The result of comparing a run of pairs.
 #[derive(Clone, Copy)]
-struct Seen {
-    /// Flagged ones.
-    flags: bool,
-    /// Second ones that are empty, if they are in the row below.
-    empties: bool,
+struct Compared {
+    /// Whether any pair is flagged.
+    flagged: bool,
+    /// Whether any second cell is empty; known only of pairs in a column.
+    empties_below: bool,
 }
 
-/// A field of a lane.
+/// Returns a signed field of a cell of a run.
 #[inline(always)]
 fn signed(field: Extract, [upper, lower]: [&[u32; RUN]; 2], lane: usize) -> i32 {
     let lane = lane & (RUN - 1);
     field.signed(upper[lane], lower[lane])
 }
 
-/// The columns of pairs that wait to be looked at. Much of what they are made of is not in the cache: it is asked for all of them at
-/// once, so that it is waited for once and not for each.
-struct Waiting {
-    columns: [u32; WAITING],
+/// The columns of flagged pairs. Most of the words that a pair is resolved from are not in the cache: they are loaded
+/// for all pairs at once, so that the wait for the memory occurs once and not for each pair.
+struct Pending {
+    columns: [u32; PENDING],
     count: usize,
 }
 
-impl Waiting {
-    const NONE: Self = Self { columns: [0; WAITING], count: 0 };
+impl Pending {
+    const NONE: Self = Self { columns: [0; PENDING], count: 0 };
 
-    /// A pair whose first cell is in column `x` waits. Whether no more can.
+    /// Adds the pair whose first cell is in column `x`; returns whether no further pair fits in.
     #[inline(always)]
-    fn wait(&mut self, x: u32) -> bool {
+    fn push(&mut self, x: u32) -> bool {
         if let Some(column) = self.columns.get_mut(self.count) {
             *column = x;
             self.count += 1;
         }
-        self.count >= WAITING
+        self.count >= PENDING
     }
 
-    /// Brings into the cache what [`Body::read`] reads: of the first cells, which are in the row from cell `one` on, and of the second ones, in that from `other` on.
+    /// Loads into the cache what [`Body::read`] reads of the first cells, which are in the row from cell `one` on, and
+    /// of the second ones, in the row from cell `other` on.
     #[inline(always)]
-    fn bring<F: Format>(&self, front: &Galpixmap<'_, F>, one: u32, other: u32) {
+    fn prefetch<F: Format>(&self, front: &Galpixmap<'_, F>, one: u32, other: u32) {
         if !VECTORS {
             return;
         }
@@ -143,17 +146,18 @@ impl Waiting {
     }
 }
 
-/// What is done with each pair of a map.
+/// Marks the rows of a map.
 pub(crate) struct Marker<'m, 'p, F> {
     front: &'m Galpixmap<'p, F>,
     rule: Rule,
     border: Border,
     key_limit: Option<(u32, u32)>,
-    /// Whether the row that is looked at may have empty cells.
+    /// Whether the current row may have empty cells.
     empties: bool,
-    /// By how much motions may differ, and the bits that then are 0.
+    /// For velocity and acceleration along each component a limit of their difference, and the bits that are 0 in the
+    /// sum of difference and limit if the difference is within it.
     limits: [[(i32, u32); 2]; 2],
-    /// The bits of a word that are marked.
+    /// The bits of a word that marking writes.
     marked: u32,
     pub tally: Tally,
 }
@@ -168,34 +172,35 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         Self { front, rule, border, key_limit, empties: true, limits, marked: u32::MAX, tally }
     }
 
-    /// Columns.
+    /// Returns the number of columns.
     pub fn width(&self) -> u32 {
         self.front.grid().width()
     }
 
-    /// Begins row `y`: nothing is uncovered but what is hidden in empty cells, for it is not hidden. Where a pass on the way `WAY` has left
-    /// something in a cell, it stays; [`NO_PASS`] leaves nothing. The first cell of the row, if there is one.
-    pub fn begin<const WAY: u32>(&mut self, y: u32, row: &mut [u32]) -> Option<u32> {
+    /// Begins row `y`: only its empty cells are uncovered. In a pass in `DIRECTION` the byte of the opposite direction
+    /// stays as the row before has left it; with [`NO_PASS`] nothing stays. Returns the first cell of the row, `None`
+    /// if there is no such row.
+    pub fn begin<const DIRECTION: u32>(&mut self, y: u32, row: &mut [u32]) -> Option<u32> {
         let start = self.front.grid().row(y as i32)?;
-        self.clear::<WAY>(row);
+        self.clear::<DIRECTION>(row);
         self.empties = self.front.any_empty(start, self.front.grid().width());
         if self.empties {
-            self.lay_open(start, row);
+            self.mark_empty(start, row);
         }
         Some(start)
     }
 
-    /// Begins a row that is the next one to [`Self::rows`], which lays open its empty cells.
-    pub fn clear<const WAY: u32>(&mut self, row: &mut [u32]) {
-        let kept = if WAY == NO_PASS { 0 } else { 0xff << (WAY ^ 8) };
+    /// Begins a row that is the next one to [`Self::rows`], which marks its empty cells.
+    pub fn clear<const DIRECTION: u32>(&mut self, row: &mut [u32]) {
+        let kept = if DIRECTION == NO_PASS { 0 } else { 0xff << (DIRECTION ^ 8) };
         self.marked = !kept;
         for word in row {
             *word &= kept;
         }
     }
 
-    /// What is in the empty cells of a row that begins at cell `start` is not hidden.
-    fn lay_open(&self, start: u32, row: &mut [u32]) {
+    /// Marks the empty cells of a row that begins at cell `start` as uncovered: nothing hides what is in them.
+    fn mark_empty(&self, start: u32, row: &mut [u32]) {
         let cells = start as usize..(start + self.front.grid().width()) as usize;
         for (x, key) in (0..).zip(self.front.keys(cells)) {
             if self.front.class_of(key) == Class::Empty as u32 {
@@ -204,61 +209,63 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         }
     }
 
-    /// Marks what is uncovered in row `y`, which is `here`, and in row `y + 1`, which is `next`, by pairs of one cell in each; and in row `y` by pairs in
-    /// it, if `IN_ROW`, and by what lies beyond the border. Both must have begun; an empty one is left out.
+    /// Marks row `y`, which is `here`, and row `y + 1`, which is `next`, by the pairs of one cell in each. If `IN_ROW`,
+    /// marks row `y` also by the pairs within it and by the border. Both rows must have begun; an empty slice
+    /// stands for a row that is left out.
     pub fn rows<const IN_ROW: bool>(&mut self, y: u32, here: &mut [u32], next: &mut [u32]) {
         let grid = *self.front.grid();
         let Some(row) = grid.row(y as i32) else { return };
         let below = grid.row(y as i32 + 1);
         let empties = !IN_ROW || self.empties;
         let (mut flags, mut empties_below) = ([0; RUN], false);
-        let (mut pairs_in_row, mut pairs_between) = (Waiting::NONE, Waiting::NONE);
+        let (mut pairs_in_row, mut pairs_between) = (Pending::NONE, Pending::NONE);
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(RUN as u32);
             if let Some(below) = below {
-                let seen = self.compare::<1>(row + x, below + x, empties, &mut flags);
-                empties_below |= seen.empties;
-                if seen.flags {
+                let compared = self.compare::<1>(row + x, below + x, empties, &mut flags);
+                empties_below |= compared.empties_below;
+                if compared.flagged {
                     for x in flagged(&flags, x..x + cells) {
-                        if pairs_between.wait(x) {
-                            self.settle_between(&mut pairs_between, [row, below], here, next);
+                        if pairs_between.push(x) {
+                            self.resolve_pairs_between(&mut pairs_between, [row, below], here, next);
                         }
                     }
                 }
             }
-            if IN_ROW && self.compare::<0>(row + x, row + x + 1, empties, &mut flags).flags {
+            if IN_ROW && self.compare::<0>(row + x, row + x + 1, empties, &mut flags).flagged {
                 for x in flagged(&flags, x..(x + cells).min(grid.width() - 1)) {
-                    if pairs_in_row.wait(x) {
-                        self.settle_in_row(&mut pairs_in_row, row, here);
+                    if pairs_in_row.push(x) {
+                        self.resolve_pairs_in_row(&mut pairs_in_row, row, here);
                     }
                 }
             }
             x += cells;
         }
-        self.settle_in_row(&mut pairs_in_row, row, here);
+        self.resolve_pairs_in_row(&mut pairs_in_row, row, here);
         if let Some(below) = below {
-            self.settle_between(&mut pairs_between, [row, below], here, next);
+            self.resolve_pairs_between(&mut pairs_between, [row, below], here, next);
             self.empties = empties_below;
             if empties_below {
-                self.lay_open(below, next);
+                self.mark_empty(below, next);
             }
         }
         if IN_ROW && self.border == Border::Still {
-            self.beyond(y, row, here);
+            self.mark_border(y, row, here);
         }
     }
 
-    /// Flags the lanes that must be looked at: those of two surfaces, and those that may part. The pairs are those of the cells from
-    /// `one` and from `other` on, of which the first ones may be empty only if `empties`; all are flagged where the map ends before the run does.
+    /// Flags the lanes whose pairs must be resolved: those of two surfaces, and those that may part. The pairs are
+    /// those of the run from cell `one` on and the run from cell `other` on. First cells can be empty only if
+    /// `empties`. All lanes are flagged where the map ends before the run does.
     #[inline(always)]
-    fn compare<const ALONG: usize>(&self, one: u32, other: u32, empties: bool, flags: &mut [u32; RUN]) -> Seen {
-        let one = Lanes::at::<F, ALONG>(self.front, one);
+    fn compare<const ALONG: usize>(&self, one: u32, other: u32, empties: bool, flags: &mut [u32; RUN]) -> Compared {
+        let one = RunWords::at::<F, ALONG>(self.front, one);
         let (Some(one), Some(other), Some((limit, beyond))) =
-            (one, Lanes::at::<F, ALONG>(self.front, other), self.key_limit)
+            (one, RunWords::at::<F, ALONG>(self.front, other), self.key_limit)
         else {
             *flags = [1; RUN];
-            return Seen { flags: true, empties: true };
+            return Compared { flagged: true, empties_below: true };
         };
         let record = self.front.record();
         let [(v_limit, v_beyond), (a_limit, a_beyond)] = self.limits[ALONG];
@@ -266,17 +273,17 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         let (mut any, mut twos) = (0, 0);
         for (lane, flag) in flags.iter_mut().enumerate() {
             let (key, other_key) = (one.key::<F>(record, lane), other.key::<F>(record, lane));
-            let mut look = other_key.wrapping_sub(key).wrapping_add(limit) & beyond;
+            let mut outside = other_key.wrapping_sub(key).wrapping_add(limit) & beyond;
             if record.layout().velocity {
                 let (one, other) = (signed(v, one.v, lane), signed(v, other.v, lane));
-                look |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
+                outside |= other.wrapping_sub(one).wrapping_add(v_limit) as u32 & v_beyond;
             }
             if record.layout().acceleration {
                 let (one, other) = (signed(a, one.a, lane), signed(a, other.a, lane));
-                look |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
+                outside |= other.wrapping_sub(one).wrapping_add(a_limit) as u32 & a_beyond;
             }
-            *flag = look;
-            any |= look;
+            *flag = outside;
+            any |= outside;
             if ALONG == 1 {
                 // As in `Galpixmap::any_empty`.
                 let class = other.class[lane & (RUN - 1)];
@@ -285,20 +292,20 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         }
         let empties_below = twos >> record.class().shift >> 1 & 1 != 0;
         if empties || empties_below {
-            // Keys of empty cells say nothing.
+            // The difference of keys decides nothing where one is that of an empty cell: other classes flag the pair.
             let class = record.class().extract();
             for ((flag, &one), &other) in flags.iter_mut().zip(one.class).zip(other.class) {
                 *flag |= class.unsigned(one ^ other, one ^ other);
                 any |= *flag;
             }
         }
-        Seen { flags: any != 0, empties: empties_below }
+        Compared { flagged: any != 0, empties_below }
     }
 
-    /// Looks at the pairs of neighbours in a row that wait.
+    /// Resolves flagged pairs of neighbours in a row.
     #[inline(never)]
-    fn settle_in_row(&mut self, pairs: &mut Waiting, row: u32, here: &mut [u32]) {
-        pairs.bring(self.front, row, row + 1);
+    fn resolve_pairs_in_row(&mut self, pairs: &mut Pending, row: u32, here: &mut [u32]) {
+        pairs.prefetch(self.front, row, row + 1);
         for &x in pairs.columns.iter().take(pairs.count) {
             let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, row + x + 1));
             let uncovered = self.uncovered::<0>(&one, &other);
@@ -308,10 +315,16 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         pairs.count = 0;
     }
 
-    /// Looks at the pairs of neighbours in two rows that wait.
+    /// Resolves flagged pairs of neighbours in a column.
     #[inline(never)]
-    fn settle_between(&mut self, pairs: &mut Waiting, [row, below]: [u32; 2], here: &mut [u32], next: &mut [u32]) {
-        pairs.bring(self.front, row, below);
+    fn resolve_pairs_between(
+        &mut self,
+        pairs: &mut Pending,
+        [row, below]: [u32; 2],
+        here: &mut [u32],
+        next: &mut [u32],
+    ) {
+        pairs.prefetch(self.front, row, below);
         for &x in pairs.columns.iter().take(pairs.count) {
             let (one, other) = (Body::read(self.front, row + x), Body::read(self.front, below + x));
             let uncovered = self.uncovered::<1>(&one, &other);
@@ -321,37 +334,38 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         pairs.count = 0;
     }
 
-    /// Looks at the cells at the border of a row, beside something still and far away.
-    fn beyond(&mut self, y: u32, row: u32, here: &mut [u32]) {
+    /// Marks the cells of a row that are at the border, which is still and infinitely far away.
+    fn mark_border(&mut self, y: u32, row: u32, here: &mut [u32]) {
         let grid = *self.front.grid();
-        self.beside_nothing::<0>(row, 0, true, here);
-        self.beside_nothing::<0>(row, grid.width() - 1, false, here);
+        self.mark_at_border::<0>(row, 0, true, here);
+        self.mark_at_border::<0>(row, grid.width() - 1, false, here);
         for (at_end, before) in [(y == 0, true), (y + 1 == grid.height(), false)] {
             for x in 0..if at_end { grid.width() } else { 0 } {
-                self.beside_nothing::<1>(row, x, before, here);
+                self.mark_at_border::<1>(row, x, before, here);
             }
         }
     }
 
-    /// Looks at a cell and at what lies before it (to the left or above) or behind it, beyond the border.
-    fn beside_nothing<const ALONG: usize>(&mut self, row: u32, x: u32, before: bool, here: &mut [u32]) {
+    /// Marks a cell by its pair with what lies beyond the border: before it (to the left or above) or after it.
+    fn mark_at_border<const ALONG: usize>(&mut self, row: u32, x: u32, before: bool, here: &mut [u32]) {
         let body = Body::read(self.front, row + x);
         let [one, other] = if before { [Body::NOTHING, body] } else { [body, Body::NOTHING] };
         let uncovered = self.uncovered::<ALONG>(&one, &other);
         self.raise(here, x, if before { uncovered.second } else { uncovered.first });
     }
 
-    /// What two neighbours uncover, counted.
+    /// Returns what two neighbours uncover, and counts it.
     fn uncovered<const ALONG: usize>(&mut self, one: &Body, other: &Body) -> Uncovered {
         if one == other {
             return Uncovered::default();
         }
         let uncovered = self.rule.uncovered::<ALONG>(one, other);
         self.tally.edges += u32::from(uncovered.opens);
-        self.tally.endless += u32::from(uncovered.endless);
+        self.tally.saturated += u32::from(uncovered.saturated);
         uncovered
     }
 
+    /// Raises the extents of a cell to those of `to`, and blocks it as `to` says.
     fn raise(&self, row: &mut [u32], x: u32, to: u32) {
         if let Some(word) = row.get_mut(x as usize) {
             let to = to & self.marked;
@@ -360,7 +374,7 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
     }
 }
 
-/// Those of some columns, which a run begins with, that are flagged.
+/// Returns those of some columns that are flagged. The run begins with the first of the columns.
 #[inline(always)]
 fn flagged(flags: &[u32; RUN], columns: Range<u32>) -> impl Iterator<Item = u32> {
     let Range { start, end } = columns;
@@ -376,7 +390,7 @@ mod tests {
     use super::key_limit;
 
     #[test]
-    fn keys_that_are_let_pass_are_less_than_the_separation_apart() {
+    fn keys_that_pass_are_less_than_the_separation_apart() {
         for shift in [0, 1, 10, 24] {
             let classes = 1i64 << (30 - shift);
             for separation in [1, 2, 3, 4, 5, 100, 1 << 16, 1 << 30] {

@@ -1,22 +1,24 @@
 //! The disocclusion map: which hidden samples an update needs.
 //!
-//! Where a near surface leaves a far one, what was hidden behind the near one is uncovered. Before an update is shown the map says
-//! of each of its cells whether that can happen within the frames until the next one, and how far what is uncovered
-//! reaches from it; hidden samples of all other cells need not be carried. (Supplement to the paper on depth layers, Algorithms
-//! 1 and 2; `docs/disocclusion.md` says what was read how, and proves what is claimed here.)
+//! Where a near surface leaves a far one, it uncovers what was hidden behind it. Before an update is shown, the map
+//! says of each of its cells whether that can happen within the frames until the next update, and how far what is
+//! uncovered extends from the cell. The hidden samples of all other cells need not be carried. After Algorithms 1 and 2
+//! of the supplement to the paper on depth layers; `docs/disocclusion.md` says how they were read, and proves the
+//! guarantee below.
 //!
-//! 1. [`mark()`] looks at each pair of neighbours: where one gets away from the other, the nearer one leaves, and uncovers what is
-//!    behind itself and behind the cells that it comes by (Algorithm 1)
-//! 2. [`spread()`] hands this on from cell to cell (Algorithm 2)
+//! 1. [`mark()`] resolves each pair of neighbours: where one gets away from the other, the nearer one leaves, and
+//!    uncovers what is behind itself and behind the cells that it passes (Algorithm 1).
+//! 2. [`spread()`] propagates this from cell to cell (Algorithm 2).
 //!
-//! [`map`] does 1 and 2 in one pass down and one pass up; [`cover`] needs a single line of memory for the same, and keeps one bit a cell.
+//! [`map()`] does both in one pass down and one pass up. [`cover`] does the same with a single line of memory and keeps
+//! one bit a cell.
 //!
-//! **Candidate.** For two surfaces, each of which moves as a whole, that lie at least [`Reach::separation`] apart: a sample that is hidden behind the near one,
-//! moves like the far one, and is where no galpixel of the map is after any of the frames, was hidden in a cell whose extents are not 0. This holds with
-//! every rounding and with velocities that saturate.
+//! **Guarantee.** Two surfaces lie at least [`Reach::separation`] apart, and each moves as a whole. A sample that is
+//! hidden behind the near one, moves like the far one, and is where no galpixel of the map is after any of the frames,
+//! was hidden in a cell whose extents are not 0. This holds with every rounding, and with velocities that saturate.
 //!
-//! **Memory:** four bytes a cell. **Cost:** some vector operations a cell and some hundred operations a pair that is looked at; additions and
-//! shifts.
+//! *Memory:* four bytes a cell. *Cost:* some vector operations a cell and some hundred operations for each pair that
+//! these do not decide.
 
 mod extents;
 mod line;
@@ -38,31 +40,37 @@ use mark::{Marker, NO_PASS};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Border {
-    /// Something still and infinitely far away: where a surface leaves the border, what is behind it is uncovered.
+    /// Something still and infinitely far away: a surface that leaves the border uncovers what is behind it.
     #[default]
     Still,
-    /// What is at the border goes on beyond it: nothing is uncovered from there.
+    /// What is at the border continues beyond it: nothing is uncovered from there.
     Continues,
 }
 
-/// What the map is asked for.
+/// The settings of a disocclusion map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reach {
     /// Frames until the next update, 0 to [`Self::MOST_FRAMES`]; more count as that.
     pub frames: u32,
-    /// The difference, in units of the depth's last bit, from which on two neighbours are of two surfaces and the farther one is behind
-    /// the nearer. Neighbours that are less apart are of one surface, in which only tears of a whole cell and more count, on both
-    /// sides. At 0 all neighbours are of two surfaces, and of two at the same depth each is behind the other. Values above 2^30 count as that.
+    /// The difference of depths, in units of the depth's last bit, from which on two neighbours are of two surfaces and
+    /// the farther one is behind the nearer. Values above 2^30 count as that.
+    ///
+    /// Neighbours that differ by less are of one surface, in which only tears count, on both sides. At 0 all neighbours
+    /// are of two surfaces, and of two at the same depth each is behind the other.
     pub separation: u32,
     /// What lies beyond the border.
     pub border: Border,
-    /// Whether tears count: neighbours of one surface that part by a whole cell and more. Whatever is behind a tear the map then leaves open; but
-    /// the true surface stretches where its galpixels part, and what is behind is not seen. Without tears what is claimed above holds for
-    /// pairs of two surfaces alone, and tears are left to what fills holes.
+    /// Whether tears count: neighbours of one surface that part by a whole cell or more.
+    ///
+    /// The map then uncovers what is behind a tear. But the true surface stretches where its galpixels part, and what
+    /// is behind it is not seen. Without tears the guarantee holds for pairs of two surfaces alone, and tears are left
+    /// to the fill modes.
     pub tears: bool,
-    /// Whether what a surface uncovers goes through to farther ones that it moves over, beyond its own end. More cells are covered then, also some that a chain
-    /// of three surfaces uncovers; the claim for two needs it not.
+    /// Whether what a surface uncovers propagates through to farther surfaces that it moves over, beyond its own end.
+    ///
+    /// More cells are covered then, also some that a chain of three surfaces uncovers. The guarantee, which is for two
+    /// surfaces, does not need it.
     pub through: bool,
 }
 
@@ -70,8 +78,9 @@ impl Reach {
     /// The most frames.
     pub const MOST_FRAMES: u32 = 255;
 
-    /// For depths of `depth_bits` bits that are linear in inverse distance or in disparity, as
-    /// [`crate::frame::edge::threshold_for_depth`], what lies beyond the border still, and surfaces that end.
+    /// Returns settings for depths of `depth_bits` bits that are linear in inverse distance or in disparity: the
+    /// separation of [`threshold_for_depth`](crate::stages::threshold_for_depth) (0 without depths), a still border,
+    /// tears, and surfaces that end.
     #[must_use]
     pub const fn new(frames: u32, depth_bits: u32) -> Self {
         let separation = if depth_bits == 0 { 0 } else { crate::frame::edge::threshold_for_depth(depth_bits) };
@@ -79,21 +88,22 @@ impl Reach {
     }
 }
 
-/// What was counted.
+/// Counts of a disocclusion map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tally {
-    /// Pairs of neighbours, or of a cell and what lies beyond the border, of which one leaves.
+    /// Pairs of neighbours, or of a cell and what lies beyond the border, of which one leaves the other.
     pub edges: u32,
-    /// Of these, how many uncover [`Extents::NO_END`] cells to a side, or more.
-    pub endless: u32,
+    /// Those of them that uncover [`Extents::NO_END`] cells or more to a side.
+    pub saturated: u32,
     /// Cells whose hidden samples may be uncovered; 0 before they are spread.
     pub covered: u32,
 }
 
-/// Marks the cells that leave a neighbour.
+/// Marks the cells that leave a neighbour. The counts have no covered cells yet.
 ///
-/// `extents` must have a word for each cell (see [`Extents`]); what it held does not matter. Of cells that are not in it nothing is said.
+/// `extents` must have a word for each cell (see [`Extents`]); what it holds does not matter. Rows that it holds only
+/// in part are not marked.
 pub fn mark<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
     F::disocclusion_mark(front, extents, reach)
 }
@@ -106,7 +116,7 @@ pub(crate) fn mark_pairs<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32
     marker.tally
 }
 
-/// Marks row `y` as far as it is known, and begins the next one.
+/// Completes row `y`, which begins at cell `start`, and begins the next one.
 #[inline(always)]
 fn mark_row<F: Format>(marker: &mut Marker<'_, '_, F>, y: u32, start: u32, extents: &mut [u32]) {
     let width = marker.width() as usize;
@@ -120,7 +130,7 @@ fn mark_row<F: Format>(marker: &mut Marker<'_, '_, F>, y: u32, start: u32, exten
     marker.rows::<true>(y, here, next);
 }
 
-/// [`mark()`] and [`spread()`] together, row by row.
+/// Marks and spreads a disocclusion map: [`mark()`] and [`spread()`] together, row by row. `extents` as in [`mark()`].
 pub fn map<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
     F::disocclusion_map(front, extents, reach)
 }
@@ -142,10 +152,10 @@ fn make_by_rows<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach:
         mark_row(&mut marker, y, start, extents);
         spread::down(extents, start, grid.width());
     }
-    Tally { covered: spread::upwards(extents, &grid), ..marker.tally }
+    Tally { covered: spread::up(extents, &grid), ..marker.tally }
 }
 
-/// Whether what is hidden in a cell may be uncovered. Outside of the map nothing is.
+/// Returns whether what is hidden in a cell may be uncovered; `false` beyond the end of `extents`.
 #[inline(always)]
 #[must_use]
 pub fn covered(extents: &[u32], cell: u32) -> bool {

@@ -1,48 +1,49 @@
-//! Which of two neighbours leaves the other, and what it uncovers.
+//! The rule for two neighbours: which of them leaves the other, and what it uncovers.
 
 use super::Reach;
-use super::extents::{DOWNWARDS, Extents, TO_THE_LEFT, TO_THE_RIGHT, UPWARDS, shut};
+use super::extents::{DOWNWARDS, Extents, LEFTWARDS, RIGHTWARDS, UPWARDS, blocked};
 use super::reach::{Bound, Motion};
 use crate::format::Format;
 use crate::format::record::Record;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// The key of what nothing is behind: empty cells, and what lies beyond the border.
+/// The key of empty cells and of what lies beyond the border: nothing is behind them.
 const FARTHEST: i32 = i32::MAX;
 
-/// The largest separation: even the last key is nearer than [`FARTHEST`] by as much.
+/// The largest separation. By this much even the last key is nearer than [`FARTHEST`].
 pub(crate) const WIDEST_SEPARATION: u32 = 1 << 30;
 
-/// Cells by which two surfaces get apart so far that they do not belong together. A power of two.
+/// Two surfaces that get apart by this many cells do not belong together. A power of two, so that an `|` of counts
+/// compares all of them.
 const APART: u32 = 2;
 
-/// What is asked of a galpixel.
+/// Key and motion of a galpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Body {
-    /// Class and depth, the smaller the nearer.
+    /// Class and depth; the smaller, the nearer.
     key: i32,
     /// In x and y.
     motion: [Motion; 2],
 }
 
 impl Body {
-    /// Nothing, infinitely far away, and still.
+    /// Nothing: infinitely far away and still.
     pub const NOTHING: Self = Self { key: FARTHEST, motion: [Motion { offset: 0, velocity: 0, acceleration: 0 }; 2] };
 
-    /// What is in a cell.
+    /// Reads the body in a cell.
     #[inline(always)]
     pub fn read<F: Format>(front: &Galpixmap<'_, F>, cell: u32) -> Self {
         let Some(key) = front.key_at(cell) else { return Self::NOTHING };
         if front.class_of(key) == Class::Empty as u32 {
             return Self::NOTHING;
         }
-        // Words that hold nothing of this are not read: they would not be in the cache.
+        // Only the words that hold these fields are read: the others are not in the cache.
         Self { key: key as i32, motion: [motion::<F, 0>(front, cell), motion::<F, 1>(front, cell)] }
     }
 }
 
-/// The motion of what is in a cell along a component.
+/// Returns the motion in a cell along a component.
 #[inline(always)]
 fn motion<F: Format, const ALONG: usize>(front: &Galpixmap<'_, F>, cell: u32) -> Motion {
     let record = front.record();
@@ -54,17 +55,17 @@ fn motion<F: Format, const ALONG: usize>(front: &Galpixmap<'_, F>, cell: u32) ->
     }
 }
 
-/// What two neighbours uncover, and where one shuts the other off, as words of the map.
+/// What two neighbours uncover, and which of them is blocked, as words of the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(crate) struct Uncovered {
-    /// By the left or upper one, in itself and behind it.
+    /// The word for the left or upper neighbour.
     pub first: u32,
-    /// By the right or lower one.
+    /// The word for the right or lower neighbour.
     pub second: u32,
     /// Whether anything is uncovered.
     pub opens: bool,
-    /// Whether an extent has no end.
-    pub endless: bool,
+    /// Whether an extent is [`Extents::NO_END`].
+    pub saturated: bool,
 }
 
 /// The rule for all pairs of a map.
@@ -73,7 +74,7 @@ pub(crate) struct Rule {
     /// In x and y.
     pub bounds: [Bound; 2],
     pub separation: i32,
-    /// Whether neighbours of one surface count that part by a whole cell.
+    /// Whether neighbours of one surface that part by a whole cell count.
     pub tears: bool,
     /// Whether what is uncovered ends where its surface does.
     pub ends: bool,
@@ -92,7 +93,8 @@ impl Rule {
         }
     }
 
-    /// What is uncovered by two neighbours in a row (`ALONG` 0: left and right) or in a column (1: upper and lower).
+    /// Returns what two neighbours in a row (`ALONG` 0: left and right) or in a column (`ALONG` 1: upper and lower)
+    /// uncover.
     #[inline(never)]
     pub fn uncovered<const ALONG: usize>(&self, first: &Body, second: &Body) -> Uncovered {
         let ([x, y], [first_x, first_y], [second_x, second_y]) = (&self.bounds, first.motion, second.motion);
@@ -103,23 +105,28 @@ impl Rule {
         let one_surface = farther < self.separation && farther > -self.separation;
         let mut uncovered = Uncovered::default();
         let ahead = along.between(second_along, first_along);
-        let aside = across.between(second_across, first_across);
         let gap = along.cells(&ahead);
         let opens = gap > 0 && (!one_surface || self.tears && along.parts(&ahead));
         let may_end = self.ends && !one_surface && farther != 0;
         if !opens && !may_end {
             return uncovered;
         }
-        // Of the second one against the first: to the right of its way in a column, below it in a row, and the opposite.
-        let (onwards, backwards) = (across.cells(&aside), across.cells(&aside.reversed()));
-        // What the nearer one uncovers is behind itself: it is not handed on to a farther one that moves apart from it.
-        if may_end && ((gap | onwards | backwards) >= APART || along.cells(&ahead.reversed()) >= APART) {
-            let (behind_second, behind_first) = if ALONG == 0 {
-                (shut::<TO_THE_RIGHT>(), shut::<TO_THE_LEFT>())
+        // Cells by which the second one gets ahead of the first across the pair (below in a row, to the right in a
+        // column), and the first one of the second. The reverse motion is not the negated one: rustc 1.95 makes a
+        // negated velocity, shifted left by 1, a product by -2, and that a call of `__aeabi_lmul` on
+        // thumbv6m-none-eabi.
+        let onwards = across.cells(&across.between(second_across, first_across));
+        let backwards = across.cells(&across.between(first_across, second_across));
+        // The nearer one uncovers what is behind itself. That is not propagated to a farther one that moves apart from
+        // it.
+        let behind = || along.cells(&along.between(first_along, second_along));
+        if may_end && ((gap | onwards | backwards) >= APART || behind() >= APART) {
+            let (to_second, to_first) = if ALONG == 0 {
+                (blocked::<RIGHTWARDS>(), blocked::<LEFTWARDS>())
             } else {
-                (shut::<DOWNWARDS>(), shut::<UPWARDS>())
+                (blocked::<DOWNWARDS>(), blocked::<UPWARDS>())
             };
-            if farther > 0 { uncovered.second = behind_second } else { uncovered.first = behind_first }
+            if farther > 0 { uncovered.second = to_second } else { uncovered.first = to_first }
         }
         if !opens {
             return uncovered;
@@ -127,7 +134,7 @@ impl Rule {
         uncovered.opens = true;
         let (onwards, backwards) = (onwards + 1, backwards + 1);
         const NO_END: u32 = Extents::NO_END as u32;
-        uncovered.endless = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
+        uncovered.saturated = gap >= NO_END || onwards >= NO_END || backwards >= NO_END;
         let [gap, onwards, backwards] = [gap, onwards, backwards].map(|cells| cells.min(NO_END) as u8);
         let (one, other) = if ALONG == 0 {
             (
@@ -140,7 +147,7 @@ impl Rule {
                 Extents { left: backwards, right: onwards, above: 1, below: gap },
             )
         };
-        // The nearer one leaves; two of one surface, or as near, both.
+        // The nearer one leaves; both leave if they are of one surface or equally near.
         let both = one_surface || farther == 0;
         if both || farther > 0 {
             uncovered.first |= one.word();

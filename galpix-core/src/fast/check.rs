@@ -1,6 +1,6 @@
-//! Feature `check`: each fast pass is run on copies, beside its reference, and what they leave behind is compared.
+//! The feature `check`: runs each fast pass and its reference on copies, and compares the results.
 //!
-//! Both fast forms are run, whichever the machine takes. A difference panics: this is for tests, on a host.
+//! Runs both the wide and the narrow form, whichever the machine uses. Panics if results differ. For tests on a host.
 
 extern crate std;
 
@@ -17,12 +17,12 @@ use crate::frame::{self, Scratch, Settings, edge, reference};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// The words of a map, plane by plane.
+/// Returns the words of a map, plane by plane.
 pub(crate) fn words<F: Format>(map: &Galpixmap<'_, F>) -> Vec<u32> {
     map.planes().iter().take(map.record().words()).flat_map(|plane| plane.iter().copied()).collect()
 }
 
-/// Runs a pass over a copy of a map: what the map holds afterwards, and what the pass returned.
+/// Runs a pass on a copy of a map. Returns the words of the copy afterwards, and what the pass returned.
 pub(crate) fn on_copy<F: Format, R>(
     map: &Galpixmap<'_, F>,
     pass: impl FnOnce(&mut Galpixmap<'_, F>) -> R,
@@ -33,7 +33,7 @@ pub(crate) fn on_copy<F: Format, R>(
     (words(&copy), result)
 }
 
-/// Compares the edge maps of all forms.
+/// Compares the edge maps that all forms make.
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &[u32]) {
     let made = |mark: fn(&Galpixmap<'_, F>, u32, &mut [u32]) -> u32| {
         let mut edges = edges.to_vec();
@@ -45,10 +45,10 @@ pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &
     assert_eq!(made(narrow::edge::mark), expected, "the narrow form of the edge map");
 }
 
-/// Propagation and resolution of a map: the same arguments as [`super::sweep`].
+/// A form of [`super::sweep`].
 type Sweep<F> = fn(&Galpixmap<'_, F>, &mut Galpixmap<'_, F>, &mut [u32], Rounding, u32) -> Tally;
 
-/// Compares what propagation and resolution of all forms leave in the cells that something reached.
+/// Compares what all forms of propagation and resolution store in the cells that something reached.
 pub(crate) fn sweep<F: Format>(
     front: &Galpixmap<'_, F>,
     back: &Galpixmap<'_, F>,
@@ -77,10 +77,10 @@ pub(crate) fn sweep<F: Format>(
     assert_eq!(made(narrow::sweep), expected, "the narrow form of propagation and resolution");
 }
 
-/// A fill of a map.
+/// A form of a fill.
 type Fill<'f, F> = dyn Fn(&mut Galpixmap<'_, F>, &mut Scratch<'_>, &mut Tally) + 'f;
 
-/// Compares what both forms of a fill leave behind.
+/// Compares the results of both forms of a fill.
 fn compare_fills<F: Format>(
     back: &Galpixmap<'_, F>,
     scratch: &mut Scratch<'_>,
@@ -96,7 +96,7 @@ fn compare_fills<F: Format>(
     assert_eq!(made, expected, "the fast form of the fill");
 }
 
-/// Compares the fills of all holes.
+/// Compares both forms of the fill of all holes.
 pub(crate) fn fill<F: Format>(
     around: &impl Around,
     back: &Galpixmap<'_, F>,
@@ -114,7 +114,7 @@ pub(crate) fn fill<F: Format>(
     );
 }
 
-/// Compares the fills of bullet holes alone.
+/// Compares both forms of the fill of bullet holes.
 pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scratch<'_>, reach: u32, tally: &Tally) {
     compare_fills(
         back,
@@ -126,18 +126,18 @@ pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scr
     );
 }
 
-/// What a frame of two maps makes of the map of a [`Rolling`].
+/// The next frame of a [`Rolling`] map, made with two maps.
 pub(crate) struct Expected(Option<(Vec<u32>, Tally)>);
 
-/// Makes the next frame of a rolling map with two maps. Nothing is expected where the window lowers the reach.
+/// Makes the next frame of a rolling map with two maps. Expects nothing if the window reduces the reach.
 pub(crate) fn rolling<F: Format>(rolling: &Rolling<'_, F>, settings: &Settings) -> Expected {
     let map = rolling.map();
-    let lent = rolling.scratch();
+    let provided = rolling.scratch();
     if settings.fill_mode.rounds(settings.reach) > rolling.rounds() {
         return Expected(None);
     }
-    let cells = if lent.winners.is_empty() { 0 } else { map.grid().cells() as usize };
-    let words = if lent.edges.is_empty() { 0 } else { edge::words(map.grid()) };
+    let cells = if provided.winners.is_empty() { 0 } else { map.grid().cells() as usize };
+    let words = if provided.edges.is_empty() { 0 } else { edge::words(map.grid()) };
     let (mut winners, mut edges) = (vec![0; cells], vec![0; words]);
     let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
     let made = |back: &mut Galpixmap<'_, F>| frame::make::<F, true>(map, back, &mut scratch, settings, rolling.frame());
@@ -145,7 +145,7 @@ pub(crate) fn rolling<F: Format>(rolling: &Rolling<'_, F>, settings: &Settings) 
 }
 
 impl Expected {
-    /// Compares it with what was made.
+    /// Compares the expected frame with the map of the rolling map.
     pub(crate) fn compare<F: Format>(self, map: &Galpixmap<'_, F>, tally: &Tally) {
         if let Some(expected) = self.0 {
             assert_eq!((words(map), *tally), expected, "a frame of one map and a window");

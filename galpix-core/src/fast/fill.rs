@@ -1,16 +1,16 @@
-//! The fill of holes, hole by hole: what is no hole is looked at in runs and left out.
+//! The fill of holes, hole by hole. Looks for holes in runs of cells and skips runs without any.
 
 use crate::format::Format;
 use crate::format::record::Words;
 use crate::frame::edge::on_edge;
-use crate::frame::fill::{Around, FILLED, FillMode, Nothing, mean};
+use crate::frame::fill::{Around, FILLED, FillMode, NoFrameBefore, mean};
 use crate::frame::resolve::NO_WINNER;
 use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// Neighbours that are looked at once.
+/// Cells that are searched for holes at once.
 const RUN: u32 = 32;
 
 /// Fills the holes of `back`, see [`crate::frame::fill::fill`].
@@ -25,13 +25,13 @@ pub(crate) fn fill<F: Format>(
     let starts = back.grid().starts();
     let mut filler = Filler::new(around, back, scratch, settings.fill_mode, tally);
     for round in 0..rounds {
-        for (y, &row) in (0..).zip(starts) {
-            filler.row(y, row, row, round, round + 1 == rounds);
+        for (y, &start) in (0..).zip(starts) {
+            filler.row(Row { y, start, before: start, round, last: round + 1 == rounds });
         }
     }
 }
 
-/// Fills the bullet holes alone: other holes stay empty, and are not counted.
+/// Fills only the bullet holes; other holes stay empty and are not counted.
 pub(crate) fn fill_bullets<F: Format>(
     back: &mut Galpixmap<'_, F>,
     scratch: &mut Scratch<'_>,
@@ -40,30 +40,30 @@ pub(crate) fn fill_bullets<F: Format>(
 ) {
     let starts = back.grid().starts();
     let format = back.format();
-    let nothing = Nothing(format.record());
-    let mut filler = Filler::new(&nothing, back, scratch, FillMode::Bullet, tally);
+    let around = NoFrameBefore(format.record());
+    let mut filler = Filler::new(&around, back, scratch, FillMode::Bullet, tally);
     for round in 0..FillMode::Bullet.rounds(reach) {
-        for (y, &row) in (0..).zip(starts) {
-            filler.row(y, row, row, round, false);
+        for (y, &start) in (0..).zip(starts) {
+            filler.row(Row { y, start, before: start, round, last: false });
         }
     }
 }
 
-/// One round of [`fill`] for one row; in the last round none of its holes is left undecided. The rows of `back` may lie
-/// elsewhere than those of `front`, whose cells `winners` counts in.
+/// A round of [`fill`] for a single row, for maps whose rows are completed one after the other.
 pub(crate) struct RowFill {
-    /// What holes are filled with.
+    /// How holes are filled.
     pub fill_mode: FillMode,
     /// The row.
     pub y: i32,
     /// The round.
     pub round: u32,
-    /// Whether it is the last one.
+    /// Whether it is the last round, which fills all holes.
     pub last: bool,
 }
 
 impl RowFill {
-    /// Goes over the row.
+    /// Fills the row, if there is one. The rows of `back` may have other first cells than those of `front`; the winner
+    /// map contains cells of `front`.
     pub fn fill<F: Format>(
         &self,
         front: &Galpixmap<'_, F>,
@@ -71,12 +71,27 @@ impl RowFill {
         scratch: &mut Scratch<'_>,
         tally: &mut Tally,
     ) {
-        let (Some(row), Some(before)) = (back.grid().row(self.y), front.grid().row(self.y)) else { return };
-        let mut filler = Filler::new(front, back, scratch, self.fill_mode, tally);
-        filler.row(self.y, row, before, self.round, self.last);
+        let &Self { fill_mode, y, round, last } = self;
+        let (Some(start), Some(before)) = (back.grid().row(y), front.grid().row(y)) else { return };
+        let mut filler = Filler::new(front, back, scratch, fill_mode, tally);
+        filler.row(Row { y, start, before, round, last });
     }
 }
 
+/// A row in a round of a fill.
+#[derive(Clone, Copy)]
+struct Row {
+    y: i32,
+    /// Its first cell.
+    start: u32,
+    /// Its first cell in the frame before.
+    before: u32,
+    round: u32,
+    /// Whether this is the last round, which fills all holes.
+    last: bool,
+}
+
+/// A fill in progress.
 struct Filler<'f, 'q, A, F> {
     around: &'f A,
     back: &'f mut Galpixmap<'q, F>,
@@ -84,11 +99,10 @@ struct Filler<'f, 'q, A, F> {
     edges: &'f [u32],
     fill_mode: FillMode,
     tally: &'f mut Tally,
-    /// The first cell of the row that is visited, in the map before.
-    before: u32,
-    /// The last cell of this row, left of the one that is visited, that was not empty when the round began.
+    /// The nearest cell to the left of the current one, in its row, that was not empty when the round began.
     left: Option<u32>,
-    /// The column of the first such cell to the right, as far as it is known.
+    /// The column of the nearest such cell to the right, or the width; valid while it is greater than the current
+    /// column.
     right: u32,
 }
 
@@ -101,25 +115,25 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         tally: &'f mut Tally,
     ) -> Self {
         let Scratch { winners, edges } = scratch;
-        Self { around, back, winners, edges, fill_mode, tally, before: 0, left: None, right: 0 }
+        Self { around, back, winners, edges, fill_mode, tally, left: None, right: 0 }
     }
 
-    /// Visits the holes of row `y`, which starts at cell `row`, and at cell `before` of the map before.
-    fn row(&mut self, y: i32, row: u32, before: u32, round: u32, last: bool) {
-        (self.before, self.left, self.right) = (before, None, 0);
+    /// Fills the bullet holes of a row; in the last round all of its holes.
+    fn row(&mut self, row: Row) {
+        (self.left, self.right) = (None, 0);
         let width = self.back.grid().width();
         let mut x = 0;
         while x < width {
             let run = (width - x).min(RUN);
-            // Most runs have no hole: look at all of a run before looking at any of its cells.
-            if !self.back.any_empty(row + x, run) {
-                self.left = Some(row + x + run - 1);
+            // Most runs have no hole, so that a single test of the whole run pays.
+            if !self.back.any_empty(row.start + x, run) {
+                self.left = Some(row.start + x + run - 1);
             } else {
                 for x in x..x + run {
-                    if self.back.class(row + x) == Class::Empty {
-                        self.hole(row, x, y, round, last);
+                    if self.back.class(row.start + x) == Class::Empty {
+                        self.hole(&row, x);
                     } else {
-                        self.left = Some(row + x);
+                        self.left = Some(row.start + x);
                     }
                 }
             }
@@ -127,12 +141,13 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         }
     }
 
-    fn hole(&mut self, row: u32, x: u32, y: i32, round: u32, last: bool) {
-        let cell = row + x;
-        let bullet = if self.fill_mode.uses_edges() { self.bullet(x as i32, y, round) } else { None };
+    /// Fills the hole in column `x` of a row, if it is a bullet hole or the round is the last.
+    fn hole(&mut self, row: &Row, x: u32) {
+        let cell = row.start + x;
+        let bullet = if self.fill_mode.uses_edges() { self.bullet(x as i32, row.y, row.round) } else { None };
         let (words, winner) = match bullet {
-            Some(words) => (words, FILLED + round),
-            None if last => (self.unobscured(row, x), NO_WINNER),
+            Some(words) => (words, FILLED + row.round),
+            None if row.last => (self.unobscured(row, x), NO_WINNER),
             None => return,
         };
         self.tally.holes += 1;
@@ -143,10 +158,10 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         }
     }
 
-    /// The farther of the two surfaces at the ends of the run of holes that column `x` of a row lies in; the left one of
-    /// two that are equally far.
-    fn beside(&mut self, row: u32, x: u32) -> Option<Words> {
-        let width = self.back.grid().width();
+    /// Returns the farther of the two surfaces at the ends of the run of holes that column `x` of a row belongs to; the
+    /// left one if they are equally far.
+    fn farther_end(&mut self, row: &Row, x: u32) -> Option<Words> {
+        let (row, width) = (row.start, self.back.grid().width());
         if self.right <= x {
             self.right = x + 1 + self.back.empties((row + x + 1) as usize..(row + width) as usize);
         }
@@ -159,15 +174,15 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         }
     }
 
-    /// What the fill_mode puts into a cell that is no bullet hole.
-    fn unobscured(&mut self, row: u32, x: u32) -> Words {
-        // Not that of the map that is filled: this one does not change under a compiler's eyes.
+    /// Returns what a hole in column `x` of a row holds that is no bullet hole.
+    fn unobscured(&mut self, row: &Row, x: u32) -> Words {
+        // The record of `around`, because that of `back` cannot be borrowed while `self` is.
         let record = self.around.record();
-        let before = self.around.before(self.before + x).unwrap_or_default();
+        let before = self.around.before(row.before + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.fill_mode >= FillMode::Galdebris && known {
-            let beside = if self.fill_mode == FillMode::Extend { self.beside(row, x) } else { None };
-            let mut words = beside.unwrap_or(before);
+            let surface = if self.fill_mode == FillMode::Extend { self.farther_end(row, x) } else { None };
+            let mut words = surface.unwrap_or(before);
             record.class().set(&mut words, Class::JustUnobscured as u32);
             self.tally.galdebris += 1;
             return words;
@@ -188,7 +203,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         words
     }
 
-    /// The mean of the neighbours that lie inside a surface, if there are any.
+    /// Returns the mean of the neighbours inside a surface, if there are any.
     fn bullet(&self, x: i32, y: i32, round: u32) -> Option<Words> {
         if self.winners.is_empty() {
             return None;
@@ -202,7 +217,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         })
     }
 
-    /// Whether there was nothing at a place when this round began.
+    /// Returns whether a place was a hole when this round began; places beyond the map count as holes.
     #[inline(always)]
     fn vacant(&self, x: i32, y: i32, round: u32) -> bool {
         let Some(cell) = self.back.grid().cell(x, y) else { return true };
@@ -210,7 +225,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         self.around.foreign(cell) == 0 && winner.is_none_or(|&winner| winner >= FILLED + round)
     }
 
-    /// The mean of two pairs of neighbours that face each other: `a` and `b`, `c` and `d`.
+    /// Returns the mean of two pairs of neighbours that face each other: `a` and `b`, `c` and `d`.
     #[inline(always)]
     fn mean(&self, a: Option<u32>, b: Option<u32>, c: Option<u32>, d: Option<u32>) -> Option<Words> {
         match (a, b, c, d) {
@@ -223,7 +238,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         }
     }
 
-    /// The cell at a place, if what it holds came from inside of a surface, or is a bullet fill of an earlier round.
+    /// Returns the cell at a place, if its content came from inside a surface or is a bullet fill of an earlier round.
     #[inline(always)]
     fn inside(&self, x: i32, y: i32, round: u32) -> Option<u32> {
         let cell = self.back.grid().cell(x, y)?;
@@ -233,13 +248,13 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         (inside && own && self.back.class(cell) == Class::Galpixel).then_some(cell)
     }
 
-    /// The mean of two cells.
+    /// Returns the mean of two cells.
     fn mean2(&self, a: u32, b: u32) -> Option<Words> {
         let (a, b) = (self.back.words_at(a)?, self.back.words_at(b)?);
         Some(mean(self.back.record(), [&a, &b, &a, &b]))
     }
 
-    /// The mean of four cells.
+    /// Returns the mean of four cells.
     fn mean4(&self, a: u32, b: u32, c: u32, d: u32) -> Option<Words> {
         let back = &self.back;
         let (a, b, c, d) = (back.words_at(a)?, back.words_at(b)?, back.words_at(c)?, back.words_at(d)?);

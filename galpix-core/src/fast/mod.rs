@@ -1,7 +1,9 @@
-//! The fast forms of a frame's passes, and the one place where they are chosen.
+//! The fast forms of a frame's passes, and the only place where they are selected.
 //!
-//! Every pass has a reference in [`crate::frame`], whose work does not depend on the picture. Here is at most one faster form
-//! for each class of machine: [`wide`] where loops over neighbours become vector code, [`narrow`] where they do not.
+//! Every pass has a reference in [`crate::frame::reference`], whose instructions do not depend on the picture. This
+//! module adds at most one fast form for each class of machine: [`wide`] where loops over neighbours become vector
+//! code, [`narrow`] where they do not. With the feature `check` each fast pass is compared with its reference while it
+//! runs.
 
 #[cfg(feature = "check")]
 mod check;
@@ -25,23 +27,24 @@ use crate::layers::{self, Layers};
 use crate::map::Galpixmap;
 use rolling::Rolling;
 
-/// Whether loops over neighbours become vector code here. Decides which form is taken, and no bit of a result.
+/// Whether loops over neighbours become vector code on the target. Selects the form of a pass; results do not depend on
+/// it.
 pub(crate) const VECTORS: bool =
     cfg!(any(target_arch = "x86_64", target_arch = "x86", target_arch = "aarch64", target_arch = "wasm32"));
 
-/// Marks the edges of a map, see [`crate::frame::edge::mark`].
+/// Marks the cells of a map that are on an edge, see [`crate::frame::edge::mark`].
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
     #[cfg(feature = "check")]
     check::mark(front, threshold, edges);
     if VECTORS { wide::edge::mark(front, threshold, edges) } else { narrow::edge::mark(front, threshold, edges) }
 }
 
-/// Marks the edges of a map by instructions that do not depend on the picture.
+/// Marks the cells of a map that are on an edge, by instructions that do not depend on the picture.
 pub(crate) fn mark_constant_time<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
     if VECTORS { wide::edge::mark(front, threshold, edges) } else { reference::edge::mark(front, threshold, edges) }
 }
 
-/// Propagates and resolves a map, see [`crate::frame::resolve::sweep`].
+/// Propagates a map and resolves collisions, see [`crate::frame::resolve::sweep`].
 pub(crate) fn sweep<F: Format>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
@@ -71,7 +74,7 @@ pub(crate) fn fill<F: Format>(
     fill::fill(around, back, scratch, settings, tally);
 }
 
-/// Fills the bullet holes of `back` alone.
+/// Fills only the bullet holes of `back`; other holes stay empty and are not counted.
 pub(crate) fn fill_bullets<F: Format>(
     back: &mut Galpixmap<'_, F>,
     scratch: &mut Scratch<'_>,
@@ -93,10 +96,11 @@ fn rolling_step<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings) ->
     tally
 }
 
-/// Declares the passes over maps: generic in the format, and compiled once, here, for [`Dynamic`].
+/// Declares the trait [`Passes`]: generic functions for [`Static`] formats, and functions for [`Dynamic`] that are
+/// compiled once, in this crate.
 macro_rules! passes {
     ($(fn $name:ident($($argument:ident: $type:ty),* $(,)?) $(-> $result:ty)? = $pass:expr;)*) => {
-        /// The passes over maps of a format.
+        /// The passes over maps of a format. Not part of the public interface.
         #[doc(hidden)]
         pub trait Passes: Sized {
             $(fn $name($($argument: $type),*) $(-> $result)? where Self: Format { $pass($($argument),*) })*

@@ -1,24 +1,24 @@
-//! A frame with one map: the new map is made in a window of a few rows that rolls down the old one.
+//! Frames with a single map: the new map is made in a window of a few rows that moves down the old one.
 //!
-//! A galpixel moves by a bounded number of rows in a frame, by the width of its velocity. So once the rows down to `y` have
-//! been taken, row `y - reach` of the new map is complete, and the old row in that place is needed no more. The window holds
-//! the rows between: those that galpixels still may reach, and those whose holes are not filled yet.
+//! The width of the velocity bounds the number of rows that a galpixel moves in a frame, the reach. So once the rows up
+//! to `y` have been propagated, row `y - reach` of the new map is complete, and the same row of the old map is not
+//! needed any more. The window holds the rows between: those at which galpixels may still arrive, and those whose holes
+//! are not filled yet.
 //!
 //! ```text
 //!  old map            window                     map afterwards
-//!  row y - reach - 1  filled, and copied back ─▶ new
+//!  row y - reach - 1  filled, copied back ────▶ new
 //!  row y - reach      complete
-//!  row y              taken now
+//!  row y              propagated now
 //!  row y + reach      the first arrivals
 //! ```
 //!
-//! The result is that of [`crate::frame::step`] bit by bit, in little more than half
-//! the memory.
+//! The result is that of [`crate::Controller::step`], bit by bit, in little more than half the memory.
 
 use crate::error::SetupError;
 use crate::fast;
 use crate::fast::fill::RowFill;
-use crate::fast::narrow::{clear, sweep_row};
+use crate::fast::narrow::{Target, clear, sweep_row};
 use crate::format::Format;
 use crate::format::record::Record;
 use crate::frame::edge;
@@ -29,7 +29,7 @@ use crate::inpaint::map::Filling;
 use crate::inpaint::pyramid::Pyramid;
 use crate::map::Galpixmap;
 
-/// The most rows that a galpixel moves in a frame.
+/// Returns the largest number of rows that a galpixel moves in a frame.
 #[must_use]
 pub const fn reach(record: &Record) -> u32 {
     let scale = &record.scales[1];
@@ -37,7 +37,7 @@ pub const fn reach(record: &Record) -> u32 {
     if velocity == 0 {
         return 0;
     }
-    // The lowest and the highest step, of fields that all are at their ends.
+    // The lowest and the highest step occur where all fields are at the ends of their ranges.
     let v = 1i64 << (velocity - 1);
     let a = if acceleration == 0 { 0 } else { 1i64 << (acceleration - 1) };
     let a_top = if acceleration == 0 { 0 } else { a - 1 };
@@ -50,13 +50,14 @@ pub const fn reach(record: &Record) -> u32 {
     if down > up { down as u32 } else { up as u32 }
 }
 
-/// The rows that a window needs for `rounds` rounds of bullet filling, for maps that are not lower than that.
+/// Returns the rows that a window needs for `rounds` rounds of bullet filling; at least one round is assumed. A map
+/// with fewer rows needs a window of all its rows.
 #[must_use]
 pub const fn rows(record: &Record, rounds: u32) -> u32 {
     (reach(record) << 1) + 2 + if rounds == 0 { 1 } else { rounds }
 }
 
-/// A map that is propagated in place, and the window for it.
+/// A map that is propagated in place, and its window.
 #[derive(Debug)]
 pub struct Rolling<'p, F> {
     map: Galpixmap<'p, F>,
@@ -67,7 +68,7 @@ pub struct Rolling<'p, F> {
     frame: u32,
 }
 
-/// Makes the next frame of a rolling map.
+/// Makes the next frame in place.
 pub(crate) fn make<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings) -> Tally {
     let mut tally = Tally::default();
     if settings.fill_mode.uses_edges() && !rolling.scratch.edges.is_empty() {
@@ -79,12 +80,13 @@ pub(crate) fn make<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings)
     for y in 0..reach.min(height) {
         rolling.clear_row(y);
     }
-    // Where the last rows are filled there are no more to take.
+    // The last rows are filled after all rows have been propagated.
     for y in 0..height + reach + rounds as i32 {
         rolling.clear_row(y + reach);
         let Rolling { map, window, scratch, .. } = rolling;
-        sweep_row(map, y, &thresholds, window, scratch.winners, &mut tally);
-        // A round sees the rows above and below as the round before has left them: each follows one row behind.
+        let mut target = Target { back: window, winners: scratch.winners, tally: &mut tally };
+        sweep_row(map, y, &thresholds, &mut target);
+        // A round reads the rows above and below as the round before has left them, so that it follows one row behind.
         let complete = y - reach;
         for round in 0..rounds {
             let (last, y) = (round + 1 == rounds, complete - 1 - round as i32);
@@ -98,52 +100,59 @@ pub(crate) fn make<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings)
 }
 
 impl<'p, F: Format> Rolling<'p, F> {
-    /// A map, and a map over [`crate::map::grid::Grid::window`] of its grid with at least [`rows`] rows, or with all of them.
+    /// Makes a rolling map of a map and a window, which is a map over a [`Grid::window`](crate::Grid::window) of the
+    /// map's grid with at least [`rows`] rows, or with all rows if the map has fewer.
     ///
-    /// `scratch` is for the rungs that tell surfaces apart: a word for each cell *of the window*, and the edge map of the
-    /// whole map; or empty slices.
+    /// `scratch` has a winner map with a word for each cell *of the window*, and the edge map of the whole map. For
+    /// fill modes that do not use edges, both may be empty.
     ///
-    /// *Errors:* a window of another width or height, or with too few rows; scratch memory that is neither empty nor long
-    /// enough.
+    /// *Errors:* a window of another width, height or margin, a window with too few rows, or a scratch buffer that is
+    /// neither empty nor long enough.
     pub fn new(map: Galpixmap<'p, F>, window: Galpixmap<'p, F>, scratch: Scratch<'p>) -> Result<Self, SetupError> {
-        let (grid, rolls) = (*map.grid(), *window.grid());
-        if (grid.width(), grid.height(), grid.margin()) != (rolls.width(), rolls.height(), rolls.margin()) {
+        let (grid, windowed) = (*map.grid(), *window.grid());
+        if (grid.width(), grid.height(), grid.margin()) != (windowed.width(), windowed.height(), windowed.margin()) {
             return Err(SetupError::GridsDiffer);
         }
-        // The rows that the window has, found without a division.
-        let again = (1..grid.height()).find(|&y| rolls.row(y as i32) == Some(0));
-        let have = again.unwrap_or(grid.height());
+        // The window has as many rows as there are before cell 0 is reused. A division would call a library function on
+        // processors that have no such instruction.
+        let reused = (1..grid.height()).find(|&y| windowed.row(y as i32) == Some(0));
+        let have = reused.unwrap_or(grid.height());
         let reach = reach(map.record());
         let need = rows(map.record(), 1).min(grid.height());
         if have < need {
             let cells = grid.row(need as i32).unwrap_or(grid.cells());
-            return Err(SetupError::TooShort { plane: "window", need: cells as usize, have: rolls.cells() as usize });
+            return Err(SetupError::TooShort {
+                plane: "window",
+                need: cells as usize,
+                have: windowed.cells() as usize,
+            });
         }
-        scratch.check(rolls.cells(), edge::words(&grid))?;
-        let rounds = if again.is_none() { u32::MAX } else { have - (reach << 1) - 2 };
+        scratch.check(windowed.cells(), edge::words(&grid))?;
+        let rounds = if reused.is_none() { u32::MAX } else { have - (reach << 1) - 2 };
         Ok(Self { map, window, scratch, reach, rounds, frame: 0 })
     }
 
-    /// Makes the next frame. [`Settings::reach`] is lowered to what the window has rows for.
+    /// Makes the next frame. Reduces [`Settings::reach`] to the rounds for which the window has rows.
     pub fn step(&mut self, settings: &Settings) -> Tally {
         F::rolling_step(self, settings)
     }
 
-    /// Fills what the last step uncovered, by push-pull: how many cells. As [`crate::frame::Controller::inpaint`] does it with the same
-    /// `settings` and without quads, bit by bit: of the map before nothing is left to draw them from, and the depth that the
-    /// fill_mode gave the holes serves. [`Inpainting::quads`] does not matter.
+    /// Inpaints the cells that the last step unobscured, by push-pull; returns how many.
+    ///
+    /// The result is that of [`crate::Controller::inpaint`] without quads, bit by bit. [`Inpainting::quads`] is
+    /// ignored, because the map before no longer exists; holes keep the depth that the fill mode gave them.
     pub fn inpaint<V: Filling>(&mut self, inpainting: &Inpainting<'_>, pyramid: &mut Pyramid<'_, V>) -> u32 {
         V::push_pull(&mut self.map, inpainting, pyramid)
     }
 
-    /// Makes a row of the window empty, if there is one.
+    /// Makes row `y` of the window empty, if there is such a row.
     fn clear_row(&mut self, y: i32) {
         let Some(row) = self.window.grid().row(y) else { return };
         let cells = row as usize..(row + self.window.grid().width()) as usize;
         clear(&mut self.window, self.scratch.winners, cells);
     }
 
-    /// Copies a row of the window to where it belongs, if there is one.
+    /// Copies row `y` of the window into the map, if there is such a row.
     fn copy_back(&mut self, y: i32) {
         let width = self.map.grid().width() as usize;
         let (Some(from), Some(to)) = (self.window.grid().row(y), self.map.grid().row(y)) else { return };
@@ -156,36 +165,36 @@ impl<'p, F: Format> Rolling<'p, F> {
         }
     }
 
-    /// The caller-provided buffers.
+    /// Returns the scratch buffers.
     #[cfg(feature = "check")]
     pub(crate) const fn scratch(&self) -> &Scratch<'p> {
         &self.scratch
     }
 
-    /// The rounds of bullet filling that the window has rows for.
+    /// Returns the largest number of rounds of bullet filling for which the window has rows.
     #[cfg(feature = "check")]
     pub(crate) const fn rounds(&self) -> u32 {
         self.rounds
     }
 
-    /// The map as it is shown.
+    /// Returns the map, which is what is shown.
     #[must_use]
     pub const fn map(&self) -> &Galpixmap<'p, F> {
         &self.map
     }
 
-    /// The map as it is shown, to write an update into.
+    /// Returns the map, for writing an update into it.
     pub const fn map_mut(&mut self) -> &mut Galpixmap<'p, F> {
         &mut self.map
     }
 
-    /// The frame counter, see [`crate::frame::Controller::frame`].
+    /// Returns the frame counter, see [`crate::Controller::frame`].
     #[must_use]
     pub const fn frame(&self) -> u32 {
         self.frame
     }
 
-    /// Sets the frame counter, see [`crate::frame::Controller::set_frame`].
+    /// Sets the frame counter, see [`crate::Controller::set_frame`].
     pub const fn set_frame(&mut self, frame: u32) {
         self.frame = frame;
     }

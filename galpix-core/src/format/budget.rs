@@ -1,12 +1,12 @@
 //! Bit budgets: equations (8) to (14) of the paper.
 //!
-//! Three design numbers give every width: the extent `D` of the display in pixels, `tau_recog`, the shortest time in frames
-//! for which an object can be recognised, and `tau_prop`, the frames that a galpixmap must survive without an update.
-//! Where a number is no power of two, the smallest number of bits that holds the magnitude is taken.
+//! Three design numbers give every width: the extent `D` of the display in pixels; `tau_recog`, the shortest time in
+//! frames in which an object can be recognised; and `tau_prop`, the frames for which a galpixmap is propagated without
+//! an update. Logarithms of numbers that are no powers of two are rounded up.
 
 use crate::error::BudgetError;
 
-/// The widest velocity or acceleration: `2v + a` must not leave 32 bits.
+/// Bits of the widest velocity or acceleration, so that `2v + a` fits in 32 bits.
 pub const WIDEST_FIELD: u32 = 30;
 
 /// The three design numbers of one component.
@@ -21,13 +21,13 @@ pub struct Demand {
     pub prop: u32,
 }
 
-/// How many bits to take off what the equations give ("one can always shave bits off this estimate").
+/// How many bits to subtract from what the equations give ("one can always shave bits off this estimate").
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Shave {
     /// Fraction bits of the position.
     pub position_frac: u32,
-    /// Integer bits of the velocity: lowers the largest speed.
+    /// Integer bits of the velocity; each halves the largest speed.
     pub velocity_int: u32,
     /// Fraction bits of the velocity.
     pub velocity_frac: u32,
@@ -53,7 +53,7 @@ pub struct Component {
     pub acceleration_frac: u32,
 }
 
-/// The smallest `n`, possibly negative, with `2^n >= numerator / denominator`; both positive.
+/// Returns the smallest `n`, possibly negative, with `2^n >= numerator / denominator`. Both must be positive.
 const fn ceil_log2_ratio(numerator: u64, denominator: u64) -> i32 {
     let mut n = 0;
     let mut high = denominator as u128;
@@ -70,7 +70,7 @@ const fn ceil_log2_ratio(numerator: u64, denominator: u64) -> i32 {
 }
 
 impl Demand {
-    /// `log2 D`, rounded up: the bits of the number of cells along this component.
+    /// Returns `log2 D`, rounded up: the bits that number the cells along this component.
     #[must_use]
     pub const fn extent_bits(self) -> u32 {
         if self.extent <= 1 { 0 } else { 32 - (self.extent - 1).leading_zeros() }
@@ -88,9 +88,9 @@ impl Demand {
 }
 
 impl Component {
-    /// Every width by equations (8), (9), (11), (12) and (13).
+    /// Derives every width by equations (8), (9), (11), (12) and (13).
     ///
-    /// *Errors:* a demand with a zero, a width that vanishes, or a field wider than [`WIDEST_FIELD`].
+    /// *Errors:* a demand with a zero or with `prop = 1`, a width that vanishes, or what [`Self::checked`] refuses.
     pub const fn derive(demand: Demand) -> Result<Self, BudgetError> {
         if let Err(error) = demand.check() {
             return Err(error);
@@ -116,11 +116,13 @@ impl Component {
         .checked()
     }
 
-    /// The widths of a component that carries no acceleration.
+    /// Derives the widths of a component that carries no acceleration.
     ///
-    /// The factor 4 in the paper's largest speed `4D/tau_recog` comes from a galpixel that is pulled back; without
-    /// acceleration the bound is `D/tau_recog`, two integer bits fewer, and the smallest speed of equation (10) needs no
-    /// more fraction bits than the position has.
+    /// The factor 4 in the paper's largest speed `4D/tau_recog` comes from galpixels whose acceleration reverses their
+    /// motion. Without acceleration the bound is `D/tau_recog`, which saves two integer bits, and the smallest speed of
+    /// equation (10) needs no more fraction bits than the position has.
+    ///
+    /// *Errors:* as [`Self::derive`].
     pub const fn derive_without_acceleration(demand: Demand) -> Result<Self, BudgetError> {
         if let Err(error) = demand.check() {
             return Err(error);
@@ -140,13 +142,13 @@ impl Component {
         .checked()
     }
 
-    /// The same component with some bits taken off.
+    /// Returns the component with some bits shaved off.
     ///
-    /// *Errors:* if a field would vanish, or the velocity would become coarser than the acceleration.
+    /// *Errors:* a field that would vanish, or a velocity that would become coarser than the acceleration.
     pub const fn shaved(self, shave: Shave) -> Result<Self, BudgetError> {
         const fn less(bits: u32, shaved: u32, least: u32) -> Option<u32> {
             match bits.checked_sub(shaved) {
-                Some(left) if left >= least => Some(left),
+                Some(remaining) if remaining >= least => Some(remaining),
                 _ => None,
             }
         }
@@ -169,10 +171,11 @@ impl Component {
         }
     }
 
-    /// Checks what the arithmetic needs: fields of at most [`WIDEST_FIELD`] bits, also after they are brought to the
-    /// position's unit, room for the rounding threshold, and no acceleration finer than the velocity.
+    /// Checks what the arithmetic needs: fields of at most [`WIDEST_FIELD`] bits, also in units of the position's last
+    /// bit; a rounding threshold that fits beside `2v + a`; at most 16 fraction bits of the position; and no
+    /// acceleration finer than the velocity.
     ///
-    /// *Errors:* a velocity without a bit, a field that is too wide, a velocity coarser than the acceleration.
+    /// *Errors:* a velocity without an integer bit, a field that is too wide, a velocity coarser than the acceleration.
     pub const fn checked(self) -> Result<Self, BudgetError> {
         let Self { position_frac, velocity_int, velocity_frac, acceleration_int, acceleration_frac } = self;
         if velocity_int == 0 {
@@ -187,7 +190,7 @@ impl Component {
         if position_frac > 16 {
             return Err(BudgetError::FieldTooWide { bits: position_frac, most: 16 });
         }
-        // An acceleration is brought to the velocity's fraction, so that integer bits alone tell which is wider.
+        // The acceleration is shifted to the velocity's fraction bits, so that the integer bits decide which is wider.
         let widest_int = if acceleration_int > velocity_int { acceleration_int } else { velocity_int };
         let lift = position_frac.saturating_sub(velocity_frac.saturating_add(1));
         let bits = widest_int.saturating_add(velocity_frac).saturating_add(lift);
@@ -200,31 +203,31 @@ impl Component {
         }
     }
 
-    /// Whether the rounding threshold of a position with `position_frac` fraction bits fits beside `2v + a`.
+    /// Checks that the rounding threshold of a position with `position_frac` fraction bits fits beside `2v + a`.
     pub(crate) const fn dropped_bits_checked(self, position_frac: u32) -> Result<(), BudgetError> {
         let bits = (self.velocity_frac + 2).saturating_sub(position_frac);
         if bits > WIDEST_FIELD { Err(BudgetError::FieldTooWide { bits, most: WIDEST_FIELD }) } else { Ok(()) }
     }
 
-    /// Whether this component carries an acceleration.
+    /// Returns whether this component carries an acceleration.
     #[must_use]
     pub const fn has_acceleration(self) -> bool {
         self.acceleration_int > 0
     }
 
-    /// Bits of a stored velocity.
+    /// Returns the bits of a stored velocity.
     #[must_use]
     pub const fn velocity_bits(self) -> u32 {
         self.velocity_int + self.velocity_frac
     }
 
-    /// Bits of a stored acceleration.
+    /// Returns the bits of a stored acceleration.
     #[must_use]
     pub const fn acceleration_bits(self) -> u32 {
         self.acceleration_int + self.acceleration_frac
     }
 
-    /// Equation (14): the bits that motion adds to this component of each pixel.
+    /// Returns the bits that motion adds to this component of each pixel, equation (14).
     #[must_use]
     pub const fn motion_bits(self) -> u32 {
         self.position_frac + self.velocity_bits() + self.acceleration_bits()
@@ -239,18 +242,20 @@ pub struct Bits {
     pub x: Component,
     /// Along a column.
     pub y: Component,
-    /// In depth. `z.position_frac` bits are added to the bits of the z-buffer.
+    /// In depth. A z-buffer that moves has `z.position_frac` more bits than the layout's `depth_bits`.
     pub z: Component,
-    /// Depth bins are of the size of pixels: the whole depth range is `2^depth_int` bins.
+    /// Base-2 logarithm of the number of depth bins in the whole depth range. A bin is as large as a pixel.
     pub depth_int: u32,
-    /// Bits of a colour-rate field (shading inertia): integer bits with sign.
+    /// Integer bits of the luminosity rate (shading inertia), with the sign.
     pub luminosity_int: u32,
     /// Fraction bits of the luminosity and of its rate.
     pub luminosity_frac: u32,
 }
 
 impl Bits {
-    /// The same budget for all three components, as in the paper.
+    /// Derives the same widths for all three components, as in the paper.
+    ///
+    /// *Errors:* those of [`Component::derive`].
     pub const fn derive(demand: Demand) -> Result<Self, BudgetError> {
         match Component::derive(demand) {
             Ok(component) => Self::from_component(component, demand),
@@ -258,7 +263,9 @@ impl Bits {
         }
     }
 
-    /// The same without acceleration, see [`Component::derive_without_acceleration`].
+    /// Derives the same widths for all three components, without acceleration.
+    ///
+    /// *Errors:* those of [`Component::derive_without_acceleration`].
     pub const fn derive_without_acceleration(demand: Demand) -> Result<Self, BudgetError> {
         match Component::derive_without_acceleration(demand) {
             Ok(component) => Self::from_component(component, demand),
@@ -267,8 +274,8 @@ impl Bits {
     }
 
     const fn from_component(component: Component, demand: Demand) -> Result<Self, BudgetError> {
-        // The luminosity is a position on a scale of 256: the largest rate crosses it in tau_recog, as D/tau_recog does
-        // for pixels, and its fraction follows (11).
+        // The luminosity is a position on a scale of 256 values. As with D/tau_recog for pixels, the largest rate
+        // crosses the scale in tau_recog frames; its fraction bits follow equation (11).
         let luminosity_int = ceil_log2_ratio(256, demand.recog as u64) + 1;
         let luminosity_int = if luminosity_int < 1 { 1 } else { luminosity_int as u32 };
         Ok(Self {
@@ -281,7 +288,7 @@ impl Bits {
         })
     }
 
-    /// Another component for the depth: fewer bits, or another extent.
+    /// Replaces the component of the depth and the logarithm of the number of depth bins.
     #[must_use]
     pub const fn with_z(mut self, z: Component, depth_int: u32) -> Self {
         self.z = z;
@@ -289,7 +296,7 @@ impl Bits {
         self
     }
 
-    /// Other components in the picture plane.
+    /// Replaces the components in the picture plane.
     #[must_use]
     pub const fn with_xy(mut self, x: Component, y: Component) -> Self {
         self.x = x;
@@ -297,7 +304,9 @@ impl Bits {
         self
     }
 
-    /// For constants: the bits, or a compile error with the reason.
+    /// Returns the bits, for constants; an error becomes a compile error that states the reason.
+    ///
+    /// *Panics* on an error if called at run time.
     #[must_use]
     pub const fn must(bits: Result<Self, BudgetError>) -> Self {
         match bits {

@@ -1,4 +1,4 @@
-//! Colour formats: how a colour is stored, averaged and brightened. The core never interprets a colour beyond that.
+//! Colour formats: how a colour is stored, averaged and brightened. The passes of a frame do nothing else with colours.
 
 use crate::error::BudgetError;
 
@@ -6,20 +6,21 @@ use crate::error::BudgetError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Channel {
-    /// Position of the lowest bit.
+    /// Position of the lowest bit in the colour word.
     pub shift: u32,
     /// Bits, 1 to 8.
     pub bits: u32,
 }
 
 impl Channel {
+    /// Returns the level of this channel in a colour word.
     #[inline(always)]
     const fn of(self, colour: u32) -> u32 {
         (colour >> self.shift) & ((1 << self.bits) - 1)
     }
 }
 
-/// A colour format: red, green and blue, or one channel of gray, side by side in the low bits of a word.
+/// A colour format: three channels (red, green, blue) or one channel of gray, packed in the low bits of a word.
 ///
 /// ```
 /// use galpix_core::Colour;
@@ -45,7 +46,7 @@ impl Colour {
     /// 4 bits of luminosity.
     pub const GRAY4: Self = Self::must(Self::gray(4));
 
-    /// Makes a format of three channels from their bits, red highest.
+    /// Makes a format of three channels from their bits; red is the most significant.
     ///
     /// *Errors:* a channel without a bit, or of more than 8.
     pub const fn rgb(red: u32, green: u32, blue: u32) -> Result<Self, BudgetError> {
@@ -76,7 +77,9 @@ impl Colour {
         }
     }
 
-    /// Returns the format of a constant; what cannot exist is a compile error with the reason.
+    /// Returns the format, for constants; an error becomes a compile error that states the reason.
+    ///
+    /// *Panics* on an error if called at run time.
     #[must_use]
     pub const fn must(colour: Result<Self, BudgetError>) -> Self {
         match colour {
@@ -85,7 +88,7 @@ impl Colour {
         }
     }
 
-    /// Returns the bits of a stored colour.
+    /// Returns the bits of a colour word.
     #[must_use]
     pub const fn bits(self) -> u32 {
         self.channels[0].shift + self.channels[0].bits
@@ -97,22 +100,22 @@ impl Colour {
         self.channels.iter().take(self.count as usize).copied()
     }
 
-    /// Whether the format has one channel, of luminosity.
-    #[inline(always)]
+    /// Returns whether the format has a single channel, the luminosity.
+    #[inline]
     #[must_use]
     pub const fn is_gray(self) -> bool {
         self.count == 1
     }
 
-    /// Returns the bits of a channel, 0 to 2; the one channel of a gray stands for all three.
-    #[inline(always)]
+    /// Returns the bits of channel 0, 1 or 2; the channel of a gray format stands for all three.
+    #[inline]
     #[must_use]
     pub(crate) const fn channel_bits(&self, channel: usize) -> u32 {
         self.channels[channel].bits
     }
 
-    /// Returns the narrowest channel's bits: one step of luminosity is one step of that channel, and correspondingly more
-    /// of a wider one.
+    /// Returns the bits of the narrowest channel. One step of luminosity is one step of that channel, and a power of
+    /// two of steps of a wider one.
     #[inline(always)]
     #[must_use]
     pub const fn luminosity_bits(self) -> u32 {
@@ -121,7 +124,9 @@ impl Colour {
         if least < third.bits { least } else { third.bits }
     }
 
-    /// Stores 8-bit red, green and blue, by dropping low bits.
+    /// Converts 8-bit red, green and blue into a colour word.
+    ///
+    /// *Rounding:* low bits are dropped.
     #[inline(always)]
     #[must_use]
     pub const fn from_rgb888(self, rgb: [u8; 3]) -> u32 {
@@ -135,7 +140,7 @@ impl Colour {
             | (blue as u32 >> (8 - third.bits)) << third.shift
     }
 
-    /// Returns 8-bit red, green and blue, by repeating the high bits in the low ones.
+    /// Converts a colour word into 8-bit red, green and blue, by repeating the bits of each channel until they fill 8.
     #[inline(always)]
     #[must_use]
     pub const fn to_rgb888(self, colour: u32) -> [u8; 3] {
@@ -147,7 +152,9 @@ impl Colour {
         ]
     }
 
-    /// Returns the mean of four colours, channel by channel, halves upwards. The mean of `p, p, q, q` is that of `p` and `q`.
+    /// Returns the mean of four colour words, channel by channel. The mean of `p, p, q, q` is that of `p` and `q`.
+    ///
+    /// *Rounding:* to nearest, halves upwards.
     #[inline(always)]
     #[must_use]
     pub fn mean4(&self, colours: [u32; 4]) -> u32 {
@@ -157,7 +164,7 @@ impl Colour {
         })
     }
 
-    /// Returns the colour after `steps` of luminosity, each channel clamped to its range.
+    /// Returns the colour word after adding `steps` of luminosity, each channel clamped to its range.
     #[inline(always)]
     #[must_use]
     pub fn brightened(&self, colour: u32, steps: i32) -> u32 {
@@ -181,14 +188,16 @@ const fn check(bits: u32) -> Result<(), BudgetError> {
     if bits == 0 || bits > 8 { Err(BudgetError::ChannelBits { bits }) } else { Ok(()) }
 }
 
-/// Returns the paper's estimate of luminosity by the fractions 1/2 and 1/4: `(red + 2 green + blue) / 4`.
-#[inline(always)]
+/// Returns the paper's estimate of the luminosity, with the weights 1/4, 1/2 and 1/4: `(red + 2 green + blue) / 4`.
+///
+/// *Rounding:* downwards.
+#[inline]
 #[must_use]
 pub const fn luminosity([red, green, blue]: [u8; 3]) -> u8 {
     ((red as u32 + ((green as u32) << 1) + blue as u32) >> 2) as u8
 }
 
-/// Repeats the `bits` bits of `level` until they fill 8.
+/// Returns `level`, which has `bits` bits, repeated until it fills 8 bits.
 #[inline(always)]
 const fn widened(level: u32, bits: u32) -> u8 {
     let (mut wide, mut filled) = (level << (8 - bits), bits);

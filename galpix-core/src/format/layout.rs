@@ -1,8 +1,8 @@
-//! Layouts: which fields the galpixels of a scene carry. What a scene lacks takes no bit and no work.
+//! Layouts: which fields the galpixels of a scene carry. An absent field takes no bits and no work.
 
 use crate::format::colour::Colour;
 
-/// What a galpixel carries beside its class, which has 2 bits.
+/// The fields that a galpixel carries in addition to its class, which always has 2 bits.
 ///
 /// ```
 /// use galpix_core::{Colour, Layout};
@@ -14,22 +14,22 @@ use crate::format::colour::Colour;
 pub struct Layout {
     /// How a colour is stored.
     pub colour: Colour,
-    /// Bits of the z-buffer; 0 leaves depth out, and collisions are decided by class and source alone.
+    /// Bits of the z-buffer; 0 leaves the depth out, so that collisions are resolved by class and source alone.
     pub depth_bits: u32,
     /// Fractional position and velocity in x and y.
     pub velocity: bool,
     /// Acceleration, in each component that has a velocity.
     pub acceleration: bool,
-    /// Velocity (and acceleration) of the depth, and its fraction.
+    /// Velocity of the depth, and the fraction of the depth; with `acceleration` also the acceleration of the depth.
     pub depth_motion: bool,
-    /// Rate of the luminosity (shading inertia) and the fraction of the luminosity.
+    /// Rate of the luminosity (shading inertia), and the fraction of the luminosity.
     pub luminosity: bool,
     /// Bits of the object tag; 0 leaves it out.
     pub tag_bits: u32,
 }
 
 impl Layout {
-    /// Colour only: a picture that does not move.
+    /// Colour only, RGB888: a picture that does not move.
     pub const STILL: Self = Self {
         colour: Colour::RGB888,
         depth_bits: 0,

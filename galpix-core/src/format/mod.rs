@@ -1,5 +1,5 @@
-//! Formats: how galpixels are stored. A budget gives the widths, a layout says which fields there are, a record packs them into
-//! words.
+//! Formats: how galpixels are stored. A budget gives the widths of the fields, a layout selects the fields, and a
+//! record packs them into words.
 
 pub mod budget;
 pub mod colour;
@@ -15,7 +15,7 @@ use budget::Bits;
 use layout::Layout;
 use record::Record;
 
-/// A named choice of fields and widths, like a display controller's model.
+/// A format chosen at compile time: which fields there are, and how wide they are. See [`Static`].
 pub trait Profile {
     /// The fields.
     const LAYOUT: Layout;
@@ -23,17 +23,18 @@ pub trait Profile {
     const BITS: Bits;
 }
 
-/// The stored form of a map's galpixels: fixed at compile time ([`Static`]) or chosen at run time ([`Dynamic`]). Both give the
-/// same bits.
+/// The stored form of a map's galpixels: fixed at compile time ([`Static`]) or chosen at run time ([`Dynamic`]). Both
+/// give the same results, bit by bit.
 pub trait Format: Copy + Passes {
-    /// Whether the stored form is known at compile time. Decides how the code is arranged, and no bit of a result.
+    /// Whether the stored form is known at compile time. Selects between forms of the code; results do not depend on
+    /// it.
     const FIXED: bool;
 
     /// Returns the stored form.
     fn record(&self) -> &Record;
 }
 
-/// A format fixed at compile time: no memory, shifts by constants.
+/// A format fixed at compile time. It occupies no memory, and the code shifts by constants.
 ///
 /// ```
 /// use galpix_core::{Bits, Demand, Layout, Profile, Static};
@@ -50,7 +51,7 @@ pub trait Format: Copy + Passes {
 pub struct Static<P>(PhantomData<P>);
 
 impl<P> Static<P> {
-    /// Returns the only value.
+    /// Returns the only value of the type.
     #[must_use]
     pub const fn new() -> Self {
         Self(PhantomData)
@@ -58,7 +59,7 @@ impl<P> Static<P> {
 }
 
 impl<P: Profile> Static<P> {
-    /// The stored form.
+    /// The stored form. A profile that cannot be stored is a compile error.
     pub const RECORD: Record = Record::must(Record::plan(P::BITS, P::LAYOUT));
 }
 
@@ -85,16 +86,16 @@ impl<P: Profile> Format for Static<P> {
     }
 }
 
-/// A format chosen at run time. All passes over maps of it are compiled once, in this crate.
+/// A format chosen at run time. The passes over its maps are compiled once, in this crate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dynamic {
     record: Record,
 }
 
 impl Dynamic {
-    /// Plans the stored form of a layout under a budget.
+    /// Makes the format of a layout under a budget.
     ///
-    /// *Errors:* see [`Record::plan`].
+    /// *Errors:* those of [`Record::plan`].
     pub const fn new(bits: Bits, layout: Layout) -> Result<Self, BudgetError> {
         match Record::plan(bits, layout) {
             Ok(record) => Ok(Self { record }),

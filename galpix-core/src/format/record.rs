@@ -1,9 +1,10 @@
 //! The stored form of a galpixel: which bits of which 32-bit word hold which field.
 //!
-//! Every field has exactly the width that its budget gives. The fields are packed into the fewest words that hold them:
-//! first-fit by falling width (ties in canonical order); if that wastes a word, all fields are laid end to end in
-//! canonical order instead, and a field may then straddle two words. Within a word fields stand in canonical order from
-//! the most significant bit down, so that class and depth of a first-fit word compare as one number.
+//! Every field has exactly the width that its budget gives. The fields are packed into as few words as their bits
+//! allow: first-fit by decreasing width, ties in canonical order. If first-fit needs one more word, all fields are
+//! placed end to end in canonical order instead, and a field may then straddle two words. Within a word the fields are
+//! in canonical order from the most significant bit down, so that class and depth in the same word compare as one
+//! number.
 
 mod pack;
 
@@ -14,7 +15,7 @@ use crate::format::budget::{Bits, Component, WIDEST_FIELD};
 use crate::format::colour::Colour;
 use crate::format::layout::Layout;
 
-/// The most words of a galpixel. A power of two.
+/// The largest number of words of a galpixel. A power of two.
 pub const MAX_WORDS: usize = 8;
 
 /// Fields of a galpixel, in canonical order.
@@ -29,48 +30,51 @@ const LUMINOSITY_RATE: usize = 12;
 const LUMINOSITY: usize = 13;
 const FIELDS: usize = 14;
 
-/// Where one field is stored. An absent field has width 0, reads 0 and ignores writes.
+/// The location of a field in a galpixel's words. An absent field has width 0, reads as 0 and ignores writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Field {
     /// Bits of the field.
     pub bits: u8,
-    /// The word of the upper part: the whole field, unless it straddles.
+    /// The word that holds the upper part of the field, which is the whole field unless it straddles two words.
     pub word: u8,
-    /// Lowest bit of the upper part in its word.
+    /// Position of the lowest bit of the upper part in its word.
     pub shift: u8,
-    /// Bits of the field that continue at the top of the next word; 0 unless it straddles.
+    /// Bits of the field that continue at the top of the next word; 0 unless the field straddles two words.
     pub spill: u8,
 }
 
-/// The words of one galpixel. Those beyond the record's are 0.
+/// The words of a galpixel. Words that the record does not use are 0.
 pub(crate) type Words = [u32; MAX_WORDS];
 
+/// Returns a mask of the low `bits` bits.
 const fn low_mask(bits: u32) -> u32 {
     if bits >= 32 { u32::MAX } else { (1 << bits) - 1 }
 }
 
 impl Field {
-    /// Whether the field is there at all.
+    /// Returns whether the record has this field.
     #[inline(always)]
     #[must_use]
     pub const fn present(self) -> bool {
         self.bits != 0
     }
 
+    /// Returns the bits of the upper part.
     #[inline(always)]
     const fn upper_bits(self) -> u32 {
         (self.bits - self.spill) as u32
     }
 
-    /// The word of the upper part, and the word of what spills (the same if nothing does).
+    /// Returns the word of the upper part, and the word of the spilled bits; the same word if no bits spill.
     #[inline(always)]
     pub(crate) fn words(self) -> (usize, usize) {
+        // The masks keep the indices below `MAX_WORDS`, so that indexing needs no bounds check.
         let word = self.word as usize & (MAX_WORDS - 1);
         (word, (word + (self.spill > 0) as usize) & (MAX_WORDS - 1))
     }
 
-    /// How this field is taken out of its words.
+    /// Returns how to extract this field from its words.
     #[inline(always)]
     pub(crate) fn extract(self) -> Extract {
         let upper_bits = if self.bits == 0 { 32 } else { self.upper_bits() };
@@ -82,33 +86,33 @@ impl Field {
         }
     }
 
-    /// The words that hold the field, a bit for each.
+    /// Returns the set of words that hold the field, as a bit for each word.
     #[inline(always)]
     pub(crate) fn word_set(self) -> u32 {
         let (upper, lower) = self.words();
         if self.bits == 0 { 0 } else { 1 << upper | 1 << lower }
     }
 
-    /// The bits of the upper part in its word, the lowest of them, and how many bits spill.
+    /// Returns the mask of the upper part in its word, the position of its lowest bit, and the number of spilled bits.
     #[inline(always)]
     pub(crate) const fn upper_mask(self) -> (u32, u32, u32) {
         (low_mask(self.upper_bits()) << self.shift, self.shift as u32, self.spill as u32)
     }
 
-    /// The field's lowest bit in its word, if its highest is the word's highest.
+    /// Returns the position of the field's lowest bit, if the field is at the top of its word and does not spill.
     #[inline(always)]
     pub(crate) const fn at_top(self) -> Option<u32> {
         if self.spill == 0 && self.shift as u32 + self.bits as u32 == 32 { Some(self.shift as u32) } else { None }
     }
 
-    /// The field as an unsigned number.
+    /// Returns the field as an unsigned number.
     #[inline(always)]
     pub(crate) fn unsigned(self, words: &Words) -> u32 {
         let (upper, lower) = self.words();
         self.extract().unsigned(words[upper], words[lower])
     }
 
-    /// The field as a two's complement number.
+    /// Returns the field as a two's complement number.
     #[inline(always)]
     pub(crate) fn signed(self, words: &Words) -> i32 {
         let (upper, lower) = self.words();
@@ -131,8 +135,8 @@ impl Field {
     }
 }
 
-/// How one field is taken out of the word of its upper part and the word of what spills. Branch-free, so that loops over
-/// lanes become vector code.
+/// Shifts and masks that extract a field from the word of its upper part and the word of its spilled bits. Free of
+/// branches, so that loops over lanes become vector code.
 #[derive(Clone, Copy)]
 pub(crate) struct Extract {
     left: u32,
@@ -143,12 +147,14 @@ pub(crate) struct Extract {
 }
 
 impl Extract {
+    /// Returns the field as an unsigned number.
     #[inline(always)]
     pub(crate) fn unsigned(self, upper: u32, lower: u32) -> u32 {
         let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
         (((upper << self.left) >> self.right) << self.spill | spilled) & self.present
     }
 
+    /// Returns the field as a two's complement number.
     #[inline(always)]
     pub(crate) fn signed(self, upper: u32, lower: u32) -> i32 {
         let spilled = if self.spill == 0 { 0 } else { lower >> (32 - self.spill) };
@@ -156,15 +162,15 @@ impl Extract {
     }
 }
 
-/// The arithmetic of one component: how velocity and acceleration are brought to the position's unit.
+/// The shifts that convert velocity and acceleration of a component to the unit of its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Scale {
-    /// Bits by which an acceleration is coarser than a velocity.
+    /// Fraction bits of the velocity minus those of the acceleration.
     pub acceleration_up: u32,
-    /// Bits dropped from `2v + a` to reach the position's unit, after the rounding threshold.
+    /// Bits that are dropped from `2v + a`, after the rounding threshold was added, to reach the position's unit.
     pub down: u32,
-    /// Bits gained instead, where the position is the finer one. One of `down` and `up` is 0.
+    /// Bits that are appended instead if the position is finer than the step. `down` or `up` is 0.
     pub up: u32,
     /// Fraction bits of the position.
     pub position_frac: u32,
@@ -177,8 +183,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The arithmetic of a component whose position has `position_frac` fraction bits (in depth these are not the
-    /// component's own, see [`Record::plan`]).
+    /// Makes the scale of a component whose position has `position_frac` fraction bits. In depth these are the bits of
+    /// the depth field below a bin, not `component.position_frac`.
     #[must_use]
     pub const fn new(component: Component, position_frac: u32) -> Self {
         let step_frac = component.velocity_frac + 1;
@@ -194,7 +200,7 @@ impl Scale {
     }
 }
 
-/// How a galpixel of a layout is stored under a budget.
+/// The stored form of a galpixel: the fields of a layout with the widths of a budget, packed into words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Record {
@@ -202,7 +208,7 @@ pub struct Record {
     words: u8,
     bits: u16,
     layout: Layout,
-    /// Arithmetic in x, y and depth.
+    /// The scales of x, y and depth.
     pub scales: [Scale; 3],
     /// Fraction bits of the luminosity.
     pub luminosity_frac: u32,
@@ -220,10 +226,11 @@ macro_rules! field_getters {
 }
 
 impl Record {
-    /// Lays out the fields of a layout under a budget.
+    /// Packs the fields of a layout with the widths of a budget.
     ///
-    /// *Errors:* lanes that lack their base, a component that [`Component::checked`] refuses, a depth field that cannot
-    /// hold its bins, a field wider than a word, more than [`MAX_WORDS`] words.
+    /// *Errors:* an acceleration or a depth motion without the fields that it needs, a component that
+    /// [`Component::checked`] refuses, a depth field that cannot hold its bins, a field wider than a word, more than
+    /// [`MAX_WORDS`] words.
     pub const fn plan(bits: Bits, layout: Layout) -> Result<Self, BudgetError> {
         if (layout.acceleration && !layout.velocity)
             || (layout.depth_motion && (layout.depth_bits == 0 || !layout.velocity))
@@ -299,7 +306,9 @@ impl Record {
         }
     }
 
-    /// For constants: the record, or a compile error with the reason.
+    /// Returns the record, for constants; an error becomes a compile error that states the reason.
+    ///
+    /// *Panics* on an error if called at run time.
     #[must_use]
     pub const fn must(record: Result<Self, BudgetError>) -> Self {
         match record {
@@ -308,42 +317,42 @@ impl Record {
                 panic!("layout: the depth field cannot hold its bins: use more depth bits")
             }
             Err(BudgetError::RecordTooLong { .. }) => {
-                panic!("layout: a galpixel of more than 256 bits: leave lanes out")
+                panic!("layout: a galpixel of more than 256 bits: leave fields out")
             }
             Err(BudgetError::FieldWithoutItsBase) => {
                 panic!("layout: acceleration needs velocity, depth motion needs depth")
             }
-            Err(_) => panic!("layout: this budget does not fit these lanes"),
+            Err(_) => panic!("layout: this budget does not fit these fields"),
         }
     }
 
-    /// Words of a stored galpixel.
+    /// Returns the words of a stored galpixel.
     #[inline(always)]
     #[must_use]
     pub const fn words(&self) -> usize {
         self.words as usize
     }
 
-    /// Bytes of a stored galpixel.
+    /// Returns the bytes of a stored galpixel.
     #[must_use]
     pub const fn bytes(&self) -> usize {
         self.words as usize * 4
     }
 
-    /// Bits in use of a stored galpixel.
+    /// Returns the bits of a stored galpixel that are in use.
     #[must_use]
     pub const fn bits(&self) -> u32 {
         self.bits as u32
     }
 
-    /// Returns which fields there are.
+    /// Returns the layout, which says which fields there are.
     #[inline(always)]
     #[must_use]
     pub const fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// Returns how a colour is stored.
+    /// Returns the colour format.
     #[inline(always)]
     #[must_use]
     pub const fn colour_format(&self) -> &Colour {
@@ -351,31 +360,31 @@ impl Record {
     }
 
     field_getters! {
-        /// Empty, galpixel, debris or just unobscured.
+        /// Returns the field of the class, see [`crate::Class`].
         class = CLASS;
-        /// The z-buffer with its fraction: smaller is nearer.
+        /// Returns the field of the depth with its fraction, unsigned. Smaller is nearer.
         depth = DEPTH;
-        /// Fraction of the position along the row, from the cell's centre.
+        /// Returns the field of the offset along the row from the cell's centre.
         offset_x = OFFSET[0];
-        /// Fraction of the position along the column, from the cell's centre.
+        /// Returns the field of the offset along the column from the cell's centre.
         offset_y = OFFSET[1];
-        /// The colour word.
+        /// Returns the field of the colour word.
         colour = COLOUR;
-        /// The object's tag.
+        /// Returns the field of the object's tag.
         tag = TAG;
-        /// Steps of luminosity a frame.
+        /// Returns the field of the luminosity rate, in steps of luminosity per frame.
         luminosity_rate = LUMINOSITY_RATE;
-        /// Fraction of the luminosity.
+        /// Returns the field of the fraction of the luminosity.
         luminosity = LUMINOSITY;
     }
 
-    /// Fraction of the position in x (0) or y (1), from the cell's centre.
+    /// Returns the field of the offset in x (0) or y (1) from the cell's centre.
     #[inline(always)]
     pub(crate) const fn offset(&self, component: usize) -> Field {
         self.fields[OFFSET[component]]
     }
 
-    /// Class and depth as one number, as a field, where they stand side by side.
+    /// Returns class and depth as a single field, if they are adjacent in one word.
     #[inline(always)]
     pub(crate) const fn key_field(&self) -> Option<Field> {
         let (class, depth) = (self.class(), self.depth());
@@ -386,14 +395,14 @@ impl Record {
         }
     }
 
-    /// The velocity in x (0), y (1) or depth (2).
+    /// Returns the field of the velocity in x (0), y (1) or depth (2).
     #[inline(always)]
     #[must_use]
     pub const fn velocity(&self, component: usize) -> Field {
         self.fields[VELOCITY[component]]
     }
 
-    /// The acceleration in x (0), y (1) or depth (2).
+    /// Returns the field of the acceleration in x (0), y (1) or depth (2).
     #[inline(always)]
     #[must_use]
     pub const fn acceleration(&self, component: usize) -> Field {
@@ -401,7 +410,7 @@ impl Record {
     }
 }
 
-/// Checks the widths that a layout uses; they may have been written by hand.
+/// Checks the widths of the fields that a layout has, because the fields of [`Bits`] are public.
 const fn check_components(bits: Bits, layout: Layout) -> Result<(), BudgetError> {
     let components = [bits.x, bits.y, bits.z];
     let used = match (layout.velocity, layout.depth_motion) {

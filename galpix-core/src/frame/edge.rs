@@ -1,4 +1,4 @@
-//! Stage 3: the edge map, one bit a cell: on the edge of a surface, or inside one.
+//! Stage 3: the edge map, a bit for each cell, set if the cell is on the edge of a surface.
 //!
 //! ```text
 //!        up
@@ -6,44 +6,50 @@
 //!       down
 //! ```
 //!
-//! A plane's Laplacian vanishes, a step's does not. A cell is **inside a surface** if it and its neighbours are galpixels
-//! and the Laplacian is within the threshold; anything else is **on the edge**. So a cell beside a hole or beside debris is
-//! on the edge: what lies there is not known to continue the surface. A neighbour outside of the map counts as if it had
-//! the depth of the cell itself, and so does not decide anything.
+//! The Laplacian of the depth vanishes on a plane, but not at a step. A cell is **inside a surface** if it and its four
+//! neighbours are galpixels and the absolute Laplacian does not exceed the threshold; else it is **on an edge**. So a
+//! cell beside a hole or beside debris is on an edge, because the surface is not known to continue there. A neighbour
+//! outside of the map is taken to have the class and the depth of the cell itself.
 //!
-//! **Cost** a cell: 4 additions, 1 shift, 2 comparisons; five cells read.
+//! *Cost* per cell: 4 additions, 1 shift and 2 comparisons; five cells are read.
 
 use crate::format::Format;
 use crate::map::Galpixmap;
 use crate::map::grid::Grid;
 
-/// Equation (17). Exact for depths of up to 28 bits; with a class above them the sum may wrap, and then it does not count.
+/// Returns the Laplacian of the depth, equation (17).
+///
+/// Exact for depths of up to 28 bits. Keys with a class above the depth may wrap; such cells are on an edge in any
+/// case.
 #[inline(always)]
 #[must_use]
 pub const fn laplacian(z0: i32, left: i32, right: i32, up: i32, down: i32) -> i32 {
     left.wrapping_add(right).wrapping_add(up).wrapping_add(down).wrapping_sub(z0 << 2)
 }
 
-/// A threshold for depths of `depth_bits` bits that are linear in inverse distance or in disparity: a 64th of the range.
-/// Planes of any slant stay far below it; two surfaces that differ by more are told apart.
+/// Returns a threshold for depths of `depth_bits` bits that are linear in inverse distance or in disparity: 1/64 of the
+/// range.
+///
+/// Planes of any slant stay far below it. Surfaces whose depths differ by more are separated by edges.
 #[must_use]
 pub const fn threshold_for_depth(depth_bits: u32) -> u32 {
     if depth_bits > 6 { 1 << (depth_bits - 6) } else { 1 }
 }
 
-/// A threshold for "the faster is nearer", where motion boundaries are all that is known: a 128th of the range.
+/// Returns a threshold for depths of `depth_bits` bits that are derived from speed ("faster is nearer"): 1/128 of the
+/// range.
 #[must_use]
 pub const fn threshold_for_speed(depth_bits: u32) -> u32 {
     if depth_bits > 7 { 1 << (depth_bits - 7) } else { 1 }
 }
 
-/// Words of the edge map of a grid: one bit a cell, cell `c` in bit `c % 32` of word `c / 32`.
+/// Returns the words of the edge map of a grid. It has a bit for each cell: cell `c` is bit `c % 32` of word `c / 32`.
 #[must_use]
 pub const fn words(grid: &Grid<'_>) -> usize {
     grid.cells().div_ceil(32) as usize
 }
 
-/// Whether a cell is on the edge of a surface. What is not in the map is.
+/// Returns whether a cell is on the edge of a surface; `true` for cells outside of the edge map.
 #[inline(always)]
 #[must_use]
 pub fn on_edge(edges: &[u32], cell: u32) -> bool {
@@ -53,14 +59,15 @@ pub fn on_edge(edges: &[u32], cell: u32) -> bool {
     }
 }
 
-/// Marks the edges of a map; returns how many cells are on an edge.
+/// Marks the cells of a map that are on an edge; returns how many there are.
 ///
-/// `threshold` is in units of the depth's last bit. `edges` must have [`words`] words; further cells are not marked.
+/// `threshold` is in units of the depth's last bit. `edges` should have [`words`] words; cells beyond its end are
+/// counted but not marked.
 pub fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
     F::mark(front, threshold, edges)
 }
 
-/// Sets the bits of `flags` from `cell` on.
+/// Sets the bits of cells from `cell` on that are set in `flags`, whose lowest bit belongs to `cell`.
 #[inline(always)]
 pub(crate) fn set(edges: &mut [u32], cell: u32, flags: u32) {
     let (word, flags) = ((cell >> 5) as usize, u64::from(flags) << (cell & 31));

@@ -1,15 +1,16 @@
-//! Stage 4: what is put where nothing arrived.
+//! Stage 4: fills the holes, which are the cells at which nothing arrived.
 //!
-//! A hole inside a surface is a **bullet hole**: it takes the mean of those neighbours whose origin was inside a surface,
-//! motion included. A hole none of whose neighbours is such lies in an area that was **just unobscured**; the fill_mode decides
-//! what it holds. Both are decided for all holes of a round at once, from what arrived and from what earlier rounds filled,
-//! so that the order of traversal does not matter: just-unobscured areas grow from their boundary inwards because nothing
-//! at their boundary is inside a surface, and nothing within them ever becomes so.
+//! A hole inside a surface is a **bullet hole**: it takes the mean of those neighbours that came from inside a surface,
+//! their motion included. A hole without such a neighbour was **just unobscured**; the fill mode decides what it holds.
+//! Each round decides for all holes from what arrived and from what earlier rounds filled, so that the order of
+//! traversal does not matter. Bullet fills do not spread into just-unobscured areas, because the cells at the boundary
+//! of such an area came from an edge.
 //!
-//! Means are taken of 1, 2 or 4 galpixels only, so that a shift divides. Of the four neighbours that share a side: all
-//! four; else two that face each other; else the two there are; else the one there is. If all four are holes themselves, as
-//! where a gap between rows crosses one between columns, the four that share a corner, by the same rule. A hole in the
-//! corner of a just-unobscured area is none of these: its neighbours across a side are there, and on an edge.
+//! Means are taken of 1, 2 or 4 galpixels, so that a shift divides. The candidates are the four neighbours that share a
+//! side with the hole: all four; else two that face each other; else the two there are; else the one there is. If all
+//! four are holes themselves, as where a gap between rows crosses a gap between columns, the four neighbours that share
+//! a corner are the candidates instead. This does not apply to a hole in the corner of a just-unobscured area, because
+//! its neighbours outside of the area are no holes.
 
 use crate::format::Format;
 use crate::format::record::{Field, Record, Words};
@@ -17,36 +18,36 @@ use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings};
 use crate::map::Galpixmap;
 
-/// In a winner map after the fill: this cell holds a bullet fill of round `winner - FILLED`.
+/// The entry of a winner map, after the fill, for a cell that was filled as a bullet hole in round `r` is `FILLED + r`.
 pub const FILLED: u32 = 1 << 31;
 
-/// The rungs of the fill ladder, from cheap to rich.
+/// How holes are filled, from cheap to rich.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FillMode {
-    /// Holes stay empty and black, for study.
+    /// Holes stay empty and black. For experiments.
     None,
-    /// Holes stay empty; the display keeps showing what it showed there.
+    /// Holes stay empty and keep the colour of the frame before, so that the display does not change there.
     Hold,
-    /// What was there stays as debris: its colour, without motion, as far away as can be.
+    /// Holes hold debris: the colour of the frame before, without motion, at the farthest depth.
     Debris,
-    /// Bullet holes are filled; what was just unobscured holds debris without motion.
+    /// Bullet holes are filled; just-unobscured holes hold debris without motion.
     Bullet,
-    /// Bullet holes are filled; what was just unobscured holds the galpixel that was there, not propagated: one frame
-    /// late, and one more each time.
+    /// Bullet holes are filled; just-unobscured holes hold galdebris: the galpixel of the frame before, not propagated.
+    /// It is late by one frame, and by one more each time that this is repeated.
     Galdebris,
-    /// Bullet holes are filled; what was just unobscured continues, along its row, the farther of the two surfaces beside
-    /// it, and moves with it. Where a whole row is unobscured, as galdebris. A cell of which nothing was ever known keeps
-    /// its colour, as with every fill_mode.
+    /// Bullet holes are filled; just-unobscured holes continue the farther of the two surfaces at the ends of the run
+    /// of holes in their row, and move with it. A row that has nothing but holes gets galdebris. A hole of which the
+    /// frame before knew nothing keeps its colour and stays empty, as with all fill modes.
     #[default]
     Extend,
 }
 
 impl FillMode {
-    /// All of them, from cheap to rich.
+    /// All fill modes, from cheap to rich.
     pub const ALL: [Self; 6] = [Self::None, Self::Hold, Self::Debris, Self::Bullet, Self::Galdebris, Self::Extend];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -59,27 +60,28 @@ impl FillMode {
         }
     }
 
-    /// Whether this fill_mode needs to know who won each cell, and the edge map.
+    /// Returns whether this fill mode needs the winner map and the edge map.
     #[must_use]
     pub const fn uses_edges(self) -> bool {
         matches!(self, Self::Bullet | Self::Galdebris | Self::Extend)
     }
 
-    /// Rounds of filling for a reach.
+    /// Returns the rounds of filling for a reach.
     pub(crate) fn rounds(self, reach: u32) -> u32 {
         if self.uses_edges() { reach.clamp(1, 16) } else { 1 }
     }
 }
 
-/// What a fill must know beside the map that it fills.
+/// What a fill reads in addition to the map that it fills.
 pub(crate) trait Around {
-    /// The stored form.
+    /// Returns the stored form.
     fn record(&self) -> &Record;
 
-    /// What was shown in a cell in the frame before.
+    /// Returns what the frame before showed in a cell.
     fn before(&self, cell: u32) -> Option<Words>;
 
-    /// All ones if what the filled map holds in a cell is not its own, so that its winner says nothing about it; else 0.
+    /// Returns all ones if what the filled map holds in a cell came from another map, so that the winner map does not
+    /// apply to it; else 0.
     fn foreign(&self, cell: u32) -> u32;
 }
 
@@ -100,10 +102,10 @@ impl<F: Format> Around for Galpixmap<'_, F> {
     }
 }
 
-/// Nothing was shown before.
-pub(crate) struct Nothing<'r>(pub &'r Record);
+/// There was no frame before.
+pub(crate) struct NoFrameBefore<'r>(pub &'r Record);
 
-impl Around for Nothing<'_> {
+impl Around for NoFrameBefore<'_> {
     #[inline(always)]
     fn record(&self) -> &Record {
         self.0
@@ -120,11 +122,11 @@ impl Around for Nothing<'_> {
     }
 }
 
-/// Fills the holes of `back`, which was resolved from `front`; counts them into `tally`.
+/// Fills the holes of `back`, which was resolved from `front`, and adds their counts to `tally`.
 ///
-/// `scratch` holds the winner map of that resolution and the edge map of `front`; without them no hole is a bullet hole.
-/// Of `settings` the fill mode and the reach count: `reach` rounds of bullet filling close cracks of up to twice as many
-/// cells; at least one is done.
+/// `scratch` holds the winner map of that resolution and the edge map of `front`; without them no hole is a bullet
+/// hole. Of `settings` only the fill mode and the reach are used: `reach` rounds of bullet filling (1 to 16) close
+/// cracks that are up to twice as many cells wide.
 pub fn fill<F: Format>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
@@ -135,10 +137,13 @@ pub fn fill<F: Format>(
     F::fill(front, back, scratch, settings, tally);
 }
 
-/// The mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity from the first.
+/// Returns the mean of four galpixels, field by field; class, tag and fraction of the luminosity are those of the
+/// first.
 ///
-/// With `p, q, p, q` it is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p` it is
-/// `(4p + 2) >> 2 = p`. The sum of four fields of 30 bits stays within 32.
+/// The mean of `p, q, p, q` is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, which is that of `p` and `q`; the mean of four
+/// times `p` is `(4p + 2) >> 2 = p`. The sum of four fields of 30 bits fits in 32 bits.
+///
+/// *Rounding:* to nearest, halves upwards.
 #[inline(always)]
 pub(crate) fn mean(record: &Record, [a, b, c, d]: [&Words; 4]) -> Words {
     let mut mean = *a;
@@ -155,7 +160,7 @@ pub(crate) fn mean(record: &Record, [a, b, c, d]: [&Words; 4]) -> Words {
     mean
 }
 
-/// The signed fields that a mean is taken of, one after the other. Absent ones read 0 and ignore writes.
+/// Calls `visit` with each signed field of which a mean is taken. Absent fields read as 0 and ignore writes.
 #[inline(always)]
 fn each_moving_field(record: &Record, mut visit: impl FnMut(Field)) {
     visit(record.offset_x());

@@ -1,4 +1,4 @@
-//! One frame: the stages in their order, and the swap.
+//! A frame: its stages in their order, and the swap of the two maps.
 
 pub mod edge;
 pub mod fill;
@@ -20,23 +20,24 @@ use crate::map::Galpixmap;
 use fill::{Around, FillMode};
 use tally::Tally;
 
-/// What a frame is made with.
+/// The parameters of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Settings {
     /// How positions are rounded.
     pub rounding: Rounding,
-    /// What is put into holes.
+    /// How holes are filled.
     pub fill_mode: FillMode,
-    /// The Laplacian beyond which a cell is on an edge, in units of the depth's last bit.
+    /// The largest absolute Laplacian inside a surface, in units of the depth's last bit; beyond it a cell is on an
+    /// edge.
     pub edge_threshold: u32,
-    /// Rounds of bullet filling, 1 to 16.
+    /// Rounds of bullet filling, clamped to 1 to 16.
     pub reach: u32,
 }
 
 impl Settings {
-    /// Returns low-discrepancy rounding, the richest fill mode, one round of bullet filling, and an edge threshold for depths
-    /// of `depth_bits` bits that are linear in inverse distance.
+    /// Returns low-discrepancy rounding, the richest fill mode, one round of bullet filling, and an edge threshold for
+    /// depths of `depth_bits` bits that are linear in inverse distance.
     #[must_use]
     pub const fn for_depth(depth_bits: u32) -> Self {
         Self {
@@ -48,45 +49,49 @@ impl Settings {
     }
 }
 
-/// How what was just uncovered is filled after a frame, see [`crate::inpaint`].
+/// How just-unobscured cells are inpainted after a frame, see [`crate::inpaint`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Inpainting<'m> {
-    /// How far coarser levels are needed, and what foreground is.
+    /// How coarser levels contribute, and which depths count as foreground.
     pub rule: Rule,
-    /// Whether holes get the depth of the background from stretched quads first.
+    /// Whether holes first get the depth of the background from stretched quads.
     pub quads: bool,
-    /// Where it is worth it, a bit for each cell; empty for everywhere.
+    /// Where to inpaint: a bit for each cell, or empty for everywhere.
     pub mask: &'m [u32],
 }
 
 impl Inpainting<'_> {
-    /// Push-pull that tells foreground from background by depths of `depth_bits` bits, everywhere.
+    /// Returns push-pull everywhere, which separates foreground and background by depths of `depth_bits` bits.
     #[must_use]
     pub const fn for_depth(depth_bits: u32, gamma: Gamma) -> Self {
         let threshold = edge::threshold_for_depth(depth_bits) >> depth_bits.saturating_sub(DEPTH_BITS);
         Self { rule: Rule { gamma, threshold }, quads: true, mask: &[] }
     }
 
-    /// The classic push-pull, which knows no depth.
+    /// Returns the classic push-pull everywhere, which ignores depth.
     #[must_use]
     pub const fn classic() -> Self {
         Self { rule: Rule { gamma: Gamma::Zero, threshold: u32::MAX }, quads: false, mask: &[] }
     }
 }
 
-/// Memory that a frame needs beside its two maps. Rungs that do not tell surfaces apart need none: lend empty slices. Lent to
-/// another fill_mode, they leave out what it is for: without both no hole is a bullet hole, and without an edge map no edge is
-/// looked for or counted.
+/// Caller-provided buffers that a frame needs in addition to its maps. Each is empty or has all the words that it
+/// needs.
+///
+/// Fill modes that do not use edges ([`FillMode::uses_edges`]) need neither. With other fill modes, no hole is a bullet
+/// hole unless both are provided, and without an edge map edges are neither marked nor counted.
 #[derive(Debug, Default)]
 pub struct Scratch<'s> {
-    /// Who won each cell: a word for each cell.
+    /// The winner map, a word for each cell: the cell of the map before from which the cell's galpixel came.
     pub winners: &'s mut [u32],
-    /// The edge map: [`edge::words`] words.
+    /// The edge map, [`edge::words`] words.
     pub edges: &'s mut [u32],
 }
 
 impl Scratch<'_> {
-    /// Whether each of the two is empty or has the words that are needed.
+    /// Checks that each buffer is empty or has at least so many words.
+    ///
+    /// *Errors:* a buffer that is neither.
     pub(crate) fn check(&self, winners: u32, edges: usize) -> Result<(), SetupError> {
         let enough = |plane, have: usize, need: usize| {
             if have == 0 || have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
@@ -96,7 +101,7 @@ impl Scratch<'_> {
     }
 }
 
-/// Two maps that take turns: the front one is shown while the back one is made from it.
+/// Makes frames with two maps that it swaps: the front map is shown while the back map is made from it.
 #[derive(Debug)]
 pub struct Controller<'p, F> {
     pub(crate) front: Galpixmap<'p, F>,
@@ -106,9 +111,9 @@ pub struct Controller<'p, F> {
 }
 
 impl<'p, F: Format> Controller<'p, F> {
-    /// Two maps over the same grid, and scratch memory for the rungs that will be used.
+    /// Makes a controller of two maps over equal grids, with the scratch buffers that the fill modes in use need.
     ///
-    /// *Errors:* grids that differ, or scratch memory that is neither empty nor long enough.
+    /// *Errors:* different grids, or a scratch buffer that is neither empty nor long enough.
     pub fn new(front: Galpixmap<'p, F>, back: Galpixmap<'p, F>, scratch: Scratch<'p>) -> Result<Self, SetupError> {
         if front.grid() != back.grid() {
             return Err(SetupError::GridsDiffer);
@@ -117,30 +122,31 @@ impl<'p, F: Format> Controller<'p, F> {
         Ok(Self { front, back, scratch, frame: 0 })
     }
 
-    /// Makes the next frame and shows it. Work depends on the picture: what it does not need is skipped.
+    /// Makes the next frame and swaps the maps. Which instructions are executed depends on the picture.
     pub fn step(&mut self, settings: &Settings) -> Tally {
         let tally = F::step(&self.front, &mut self.back, &mut self.scratch, settings, self.frame);
         self.swap();
         tally
     }
 
-    /// Makes the next frame and shows it, by instructions that do not depend on the picture. Same arguments, same bits as
-    /// [`Self::step`].
+    /// Makes the next frame and swaps the maps, by instructions that do not depend on the picture. The result is that
+    /// of [`Self::step`], bit by bit.
     pub fn step_constant_time(&mut self, settings: &Settings) -> Tally {
         let tally = F::step_constant_time(&self.front, &mut self.back, &mut self.scratch, settings, self.frame);
         self.swap();
         tally
     }
 
+    /// Swaps the maps and advances the frame counter.
     fn swap(&mut self) {
         core::mem::swap(&mut self.front, &mut self.back);
         self.frame = self.frame.wrapping_add(1);
     }
 
-    /// Fills what the last step uncovered, by push-pull: how many cells. The step must have been made with `settings`, whose fill_mode is
-    /// [`FillMode::Extend`]; with any other one there may be nothing to fill.
+    /// Inpaints the cells that the last step unobscured, by push-pull; returns how many. `settings` must be those of
+    /// the last step, with [`FillMode::Extend`]; with other fill modes there may be no cells to inpaint.
     ///
-    /// Of a pyramid of another size than the map's, only what lies within both is filled.
+    /// If the sizes of pyramid and map differ, only the cells within both are inpainted.
     pub fn inpaint<V: Filling>(
         &mut self,
         settings: &Settings,
@@ -151,10 +157,11 @@ impl<'p, F: Format> Controller<'p, F> {
         V::push_pull(&mut self.front, inpainting, pyramid)
     }
 
-    /// Fills what the last step uncovered by metamers: as [`Self::inpaint`], with a texture. Of `recipe` the rule and the age are
-    /// not asked: those of `inpainting` count, and the frame counter, which [`Self::set_frame`] sets to 0 with an update.
+    /// Inpaints the cells that the last step unobscured by metamers: as [`Self::inpaint`], with a texture. The rule and
+    /// the age of `recipe` are ignored: the rule is that of `inpainting`, and the age is the frame counter, which
+    /// should be set to 0 with each update, see [`Self::set_frame`].
     ///
-    /// *Errors:* memory that is too short for the map; then nothing is filled.
+    /// *Errors:* a scratch buffer that is too short for the map; then no cell is changed.
     pub fn synthesise(
         &mut self,
         settings: &Settings,
@@ -167,6 +174,7 @@ impl<'p, F: Format> Controller<'p, F> {
         F::metamers(&mut self.front, inpainting, scratch, &recipe)
     }
 
+    /// Gives the holes of the last step the depth of the background, if `inpainting` says so.
     fn lay_background(&mut self, settings: &Settings, inpainting: &Inpainting<'_>) {
         if inpainting.quads {
             let frame = self.frame.wrapping_sub(1);
@@ -174,44 +182,45 @@ impl<'p, F: Format> Controller<'p, F> {
         }
     }
 
-    /// The map that is shown.
+    /// Returns the map that is shown.
     #[must_use]
     pub const fn front(&self) -> &Galpixmap<'p, F> {
         &self.front
     }
 
-    /// The map that is shown, to write an update into.
+    /// Returns the map that is shown, for writing an update into it.
     pub const fn front_mut(&mut self) -> &mut Galpixmap<'p, F> {
         &mut self.front
     }
 
-    /// The frame counter: frames made since it was set; wraps.
+    /// Returns the frame counter, which counts the frames since it was set and wraps.
     #[must_use]
     pub const fn frame(&self) -> u32 {
         self.frame
     }
 
-    /// Sets the frame counter, from which the thresholds of the rounding are taken. Where an update replaces the whole map,
-    /// 0 aligns a searched table with it; the other roundings have the same bounds from any frame on.
+    /// Sets the frame counter, which selects the thresholds of the rounding. If an update replaces the whole map, 0
+    /// aligns a searched table with it; the other roundings have the same error bounds from any frame on.
     pub const fn set_frame(&mut self, frame: u32) {
         self.frame = frame;
     }
 
-    /// For each cell of the shown map, the cell of the map before that it came from; see [`crate::frame::resolve::NO_WINNER`] and
-    /// [`crate::frame::fill::FILLED`]. Empty if no winner map was lent, stale for rungs that do not need one.
+    /// Returns the winner map of the shown map: for each cell, the cell of the map before from which its galpixel came;
+    /// see [`crate::stages::NO_WINNER`] and [`crate::stages::FILLED`]. Empty if no winner map was provided.
     #[must_use]
     pub const fn winners(&self) -> &[u32] {
         self.scratch.winners
     }
 
-    /// The edge map of the map before; see [`edge::on_edge`].
+    /// Returns the edge map of the map before, see [`crate::stages::on_edge`]. Empty if none was provided.
     #[must_use]
     pub const fn edges(&self) -> &[u32] {
         self.scratch.edges
     }
 }
 
-/// Makes `back` the frame after `front`, whose frame counter is `frame`. The entry point of the mode `CONSTANT_TIME`.
+/// Makes `back` the frame after `front`, whose frame counter is `frame`. With `CONSTANT_TIME` the instructions do not
+/// depend on the picture.
 pub(crate) fn make<F: Format, const CONSTANT_TIME: bool>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
@@ -224,7 +233,7 @@ pub(crate) fn make<F: Format, const CONSTANT_TIME: bool>(
     tally
 }
 
-/// Makes the edge map of `front`, propagates and resolves: `back` is left with its holes.
+/// Marks the edges of `front`, propagates it into `back` and resolves collisions; leaves the holes of `back` empty.
 #[inline(always)]
 pub(crate) fn move_on<F: Format, const CONSTANT_TIME: bool>(
     front: &Galpixmap<'_, F>,
@@ -233,9 +242,9 @@ pub(crate) fn move_on<F: Format, const CONSTANT_TIME: bool>(
     settings: &Settings,
     frame: u32,
 ) -> Tally {
-    let surfaces = settings.fill_mode.uses_edges() && !scratch.edges.is_empty();
+    let wants_edges = settings.fill_mode.uses_edges() && !scratch.edges.is_empty();
     let edges = match CONSTANT_TIME {
-        _ if !surfaces => 0,
+        _ if !wants_edges => 0,
         false => fast::mark(front, settings.edge_threshold, scratch.edges),
         true => fast::mark_constant_time(front, settings.edge_threshold, scratch.edges),
     };
@@ -248,7 +257,7 @@ pub(crate) fn move_on<F: Format, const CONSTANT_TIME: bool>(
     Tally { edges, ..tally }
 }
 
-/// Fills what was left empty.
+/// Fills the holes that [`move_on`] left.
 #[inline(always)]
 pub(crate) fn fill_holes<F: Format, const CONSTANT_TIME: bool>(
     around: &impl Around,

@@ -1,20 +1,22 @@
-//! Stage 1: where each galpixel goes in the next frame, by equations (6) and (7).
+//! Stage 1: propagates galpixels by one frame, equations (6) and (7).
 //!
-//! With time in frames, `r += v + a/2` and `v += a`. The half is not lost: `2v + a` is formed with one fraction bit more
-//! than `v` and rounded once, to the position's fraction bits, after the frame's threshold was added (see
-//! [`crate::format::rounding`]). The position then snaps to the best-fitting cell, the nearest one (halves towards +infinity), and
-//! keeps the rest as its offset.
+//! With time in frames, `r += v + a/2` and `v += a`. The half is not lost: `2v + a` has one fraction bit more than `v`,
+//! and is rounded once, to the position's fraction bits, after the frame's threshold was added (see
+//! [`crate::format::rounding`]). The galpixel then belongs to the best-fitting cell, which is the nearest one (halves
+//! towards +infinity), and the difference is stored as its offset.
 //!
-//! **Cost** a component: 4 additions, 4 shifts and a clamp; no multiplication.
+//! *Cost* per component: 4 additions, 4 shifts and a clamp; no multiplication.
 
 use crate::format::record::{Record, Scale, Words};
 use crate::format::rounding::Rounding;
 use crate::map::galpixel::Class;
 
-/// Equation (6): the position one frame later, in units of the position's last bit.
+/// Returns the position one frame later, equation (6), in units of the position's last bit.
 ///
-/// *Ranges:* `v` and `a` within their fields, `threshold` in `0 ..= 2^down - 1`. *Overflow:* none, by
-/// [`crate::format::budget::WIDEST_FIELD`], as long as `position` has 30 bits.
+/// *Ranges:* `v` and `a` within their fields, `threshold` in `0 ..= 2^down - 1`. Nothing overflows if `position` has at
+/// most 30 bits, because of [`WIDEST_FIELD`](crate::record::WIDEST_FIELD).
+///
+/// *Rounding:* `threshold` is added to `2v + a`, then `down` bits are dropped.
 #[inline(always)]
 #[must_use]
 pub const fn step_position(scale: &Scale, threshold: i32, position: i32, v: i32, a: i32) -> i32 {
@@ -22,14 +24,14 @@ pub const fn step_position(scale: &Scale, threshold: i32, position: i32, v: i32,
     position + (((step + threshold) >> scale.down) << scale.up)
 }
 
-/// Equation (7): the velocity one frame later, before it is clamped to its field.
+/// Returns the velocity one frame later, equation (7), not yet clamped to its field.
 #[inline(always)]
 #[must_use]
 pub const fn step_velocity(scale: &Scale, v: i32, a: i32) -> i32 {
     v + (a << scale.acceleration_up)
 }
 
-/// The velocity clamped to its field: nothing ever wraps.
+/// Returns the velocity clamped to the range of its field.
 #[inline(always)]
 #[must_use]
 pub fn clamp_velocity(scale: &Scale, v: i32) -> i32 {
@@ -37,14 +39,16 @@ pub fn clamp_velocity(scale: &Scale, v: i32) -> i32 {
     v.min(top).max(!top)
 }
 
-/// The best-fitting cell for a position, relative to the cell that its integer part counts from.
+/// Returns the best-fitting cell of a position, relative to the cell that `position` is relative to.
+///
+/// *Rounding:* to nearest, halves towards +infinity.
 #[inline(always)]
 #[must_use]
 pub const fn snap(scale: &Scale, position: i32) -> i32 {
     (position + ((1 << scale.position_frac) >> 1)) >> scale.position_frac
 }
 
-/// The frame's thresholds for x, y and depth.
+/// Returns the frame's rounding thresholds for x, y and depth.
 #[inline(always)]
 pub(crate) fn thresholds(record: &Record, rounding: Rounding, frame: u32) -> [i32; 3] {
     let [x, y, z] = &record.scales;
@@ -57,22 +61,23 @@ pub(crate) struct Step {
     pub dx: i32,
     /// Cells moved along the column.
     pub dy: i32,
-    /// The bits by which velocity x, y, depth and its velocity left their fields; 0 where they did not.
+    /// For the velocities in x and y, the depth and the velocity in depth: 0 if the value stayed in its field.
     pub overflowed: [i32; 4],
 }
 
 impl Step {
-    /// Fields that were clamped.
+    /// Returns the number of fields that left their range.
     #[inline(always)]
     pub fn saturated(&self) -> u32 {
         self.overflowed.iter().map(|&overflowed| (overflowed != 0) as u32).sum()
     }
 }
 
-/// Moves one galpixel forward by one frame. The kernel of the engine: knows no image, and does not branch, so that a loop
-/// over neighbours becomes vector code.
+/// Propagates a galpixel by one frame.
 ///
-/// Without `CLAMP` a field that strays is said to, and holds rubbish: for callers that take such a step again.
+/// With `CLAMP`, velocities and depth that leave their fields are clamped. Without it they are only reported, in
+/// [`Step::overflowed`], and the words are unspecified: such a caller repeats the step with `CLAMP`. Free of branches,
+/// so that loops over neighbours become vector code.
 #[inline(always)]
 pub(crate) fn advance<const CLAMP: bool>(record: &Record, thresholds: &[i32; 3], words: &mut Words) -> Step {
     let mut step = Step { dx: 0, dy: 0, overflowed: [0; 4] };
@@ -86,13 +91,13 @@ pub(crate) fn advance<const CLAMP: bool>(record: &Record, thresholds: &[i32; 3],
     if record.layout().luminosity {
         step_luminosity(record, words);
     }
-    // What was just unobscured is debris from now on.
+    // Just-unobscured becomes debris.
     let class = record.class().unsigned(words);
     record.class().set(words, class + (class == Class::JustUnobscured as u32) as u32);
     step
 }
 
-/// The cells that a galpixel moves in a step, along the row and along the column, and nothing else of it.
+/// Returns the cells that a step moves a galpixel in x and y, without making the step.
 #[inline(always)]
 pub(crate) fn cells_moved(record: &Record, thresholds: &[i32; 3], words: &Words) -> [i32; 2] {
     if !record.layout().velocity {
@@ -101,7 +106,7 @@ pub(crate) fn cells_moved(record: &Record, thresholds: &[i32; 3], words: &Words)
     [cells_along(record, thresholds[0], 0, words), cells_along(record, thresholds[1], 1, words)]
 }
 
-/// The cells moved in x (0) or y (1).
+/// Returns the cells that a step moves a galpixel in x (0) or y (1).
 #[inline(always)]
 fn cells_along(record: &Record, threshold: i32, component: usize, words: &Words) -> i32 {
     let scale = &record.scales[component];
@@ -109,7 +114,7 @@ fn cells_along(record: &Record, threshold: i32, component: usize, words: &Words)
     snap(scale, step_position(scale, threshold, record.offset(component).signed(words), v, a))
 }
 
-/// A step in x (0) or y (1): the cells moved, and by which bits the velocity overflowed.
+/// Makes a step in x (0) or y (1). Returns the cells moved, and a number that is not 0 if the velocity overflowed.
 #[inline(always)]
 fn step_plane<const CLAMP: bool>(record: &Record, threshold: i32, component: usize, words: &mut Words) -> (i32, i32) {
     let scale = &record.scales[component];
@@ -121,7 +126,7 @@ fn step_plane<const CLAMP: bool>(record: &Record, threshold: i32, component: usi
     (snap(scale, position), set_velocity::<CLAMP>(record, component, words, v, a))
 }
 
-/// A step in depth, which saturates at the near and at the far end: by which bits depth and velocity overflowed.
+/// Makes a step in depth. Returns two numbers that are not 0 if the depth and its velocity overflowed.
 #[inline(always)]
 fn step_depth<const CLAMP: bool>(record: &Record, threshold: i32, words: &mut Words) -> (i32, i32) {
     let far = ((1u32 << record.depth().bits) - 1) as i32;
@@ -134,7 +139,7 @@ fn step_depth<const CLAMP: bool>(record: &Record, threshold: i32, words: &mut Wo
     (overflowed, set_velocity::<CLAMP>(record, 2, words, v, a))
 }
 
-/// The velocity of a component after a step: by which bits it overflowed.
+/// Sets the velocity of a component after a step. Returns a number that is not 0 if the velocity overflowed.
 #[inline(always)]
 fn set_velocity<const CLAMP: bool>(record: &Record, component: usize, words: &mut Words, v: i32, a: i32) -> i32 {
     if !record.layout().acceleration {
@@ -148,7 +153,8 @@ fn set_velocity<const CLAMP: bool>(record: &Record, component: usize, words: &mu
     velocity ^ kept
 }
 
-/// Shading inertia: the luminosity moves by its rate, and whole steps go into the colour's channels, clamped to them.
+/// Applies shading inertia: adds the luminosity rate, and whole steps of luminosity to the colour, each channel
+/// clamped.
 #[inline(always)]
 pub(crate) fn step_luminosity(record: &Record, words: &mut Words) {
     if !record.luminosity_rate().present() {
@@ -160,10 +166,12 @@ pub(crate) fn step_luminosity(record: &Record, words: &mut Words) {
     record.colour().set(words, record.colour_format().brightened(colour, level >> record.luminosity_frac));
 }
 
-/// A step in x (0) or y (1) of a galpixel that is expected in a cell, `lowest` being the lowest position in it: whether it gets
-/// there, and its velocity stays in its field. If not, the words hold rubbish.
+/// Makes a step in x (0) or y (1) of a galpixel that is expected to arrive in a given cell. Returns whether it does and
+/// its velocity stays in its field; if not, the words are unspecified.
+///
+/// `lowest` is the lowest position that belongs to the cell, relative to the galpixel's own cell.
 #[inline(always)]
-pub(crate) fn plane_along<const COMPONENT: usize>(
+pub(crate) fn step_plane_to<const COMPONENT: usize>(
     record: &Record,
     threshold: i32,
     lowest: i32,
@@ -171,29 +179,30 @@ pub(crate) fn plane_along<const COMPONENT: usize>(
 ) -> bool {
     let scale = &record.scales[COMPONENT];
     let offset = record.offset(COMPONENT);
-    let Some(step) = step_within(record, COMPONENT, words) else { return false };
-    // Of an even step a single bit is dropped without a trace, whatever the threshold.
+    let Some(step) = step_velocity_within(record, COMPONENT, words) else { return false };
+    // Without acceleration the step is even: if one bit is dropped, it is 0, and the threshold does not matter.
     let even = !record.layout().acceleration && scale.down == 1;
     let step = if even { step >> 1 } else { (step + threshold) >> scale.down };
     let position = offset.signed(words) + (step << scale.up);
     offset.set(words, position as u32);
-    // Whether `snap` gives what is expected, in one comparison.
+    // One comparison decides whether `snap` gives the expected cell.
     (position.wrapping_sub(lowest) as u32) < 1 << scale.position_frac
 }
 
-/// A step in depth: whether depth and velocity stay in their fields. If not, the words hold rubbish.
+/// Makes a step in depth. Returns whether depth and velocity stay in their fields; if not, the words are unspecified.
 #[inline(always)]
-pub(crate) fn depth_within(record: &Record, threshold: i32, words: &mut Words) -> bool {
+pub(crate) fn step_depth_within(record: &Record, threshold: i32, words: &mut Words) -> bool {
     let (depth, scale) = (record.depth(), &record.scales[2]);
-    let Some(step) = step_within(record, 2, words) else { return false };
+    let Some(step) = step_velocity_within(record, 2, words) else { return false };
     let position = depth.unsigned(words) as i32 + (((step + threshold) >> scale.down) << scale.up);
     depth.set(words, position as u32);
     position as u32 >> depth.bits == 0
 }
 
-/// `2v + a` of a component whose velocity stays in its field in the step, which it takes; else nothing.
+/// Makes the step of a component's velocity and returns `2v + a` of the velocity before the step; `None` if the
+/// velocity does not stay in its field.
 #[inline(always)]
-fn step_within(record: &Record, component: usize, words: &mut Words) -> Option<i32> {
+fn step_velocity_within(record: &Record, component: usize, words: &mut Words) -> Option<i32> {
     let (field, scale) = (record.velocity(component), &record.scales[component]);
     let v = field.signed(words);
     if !record.layout().acceleration {
@@ -201,12 +210,13 @@ fn step_within(record: &Record, component: usize, words: &mut Words) -> Option<i
     }
     let a = record.acceleration(component).signed(words);
     if let Some(shift) = field.at_top() {
-        // At the top of its word the processor's own overflow flag tells whether the sum strays.
+        // At the top of its word, the velocity overflows exactly if the sum overflows 32 bits, which a processor flag
+        // reports.
         let (word, _) = field.words();
-        let (sum, strays) = (words[word] as i32).overflowing_add(a << (scale.acceleration_up + shift));
+        let (sum, overflows) = (words[word] as i32).overflowing_add(a << (scale.acceleration_up + shift));
         words[word] = sum as u32;
-        // `2v + a` is the old velocity and the new one.
-        return if strays { None } else { Some(v + (sum >> shift)) };
+        // `2v + a` is the sum of the old velocity and the new one.
+        return if overflows { None } else { Some(v + (sum >> shift)) };
     }
     let velocity = step_velocity(scale, v, a);
     field.set(words, velocity as u32);

@@ -1,33 +1,33 @@
-//! What a frame counted.
+//! The counts of a frame.
 
-/// Counts of one frame. Each is at most the number of cells (`saturated`: fields, six times that).
+/// The counts of a frame. Each is at most the number of cells; `saturated` counts fields, at most four for each cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tally {
     /// Galpixels and debris that were propagated.
     pub moved: u32,
-    /// Of these, how many left the map over its border.
+    /// Propagated galpixels and debris that left the map.
     pub lost: u32,
-    /// Of these, how many met another in the same cell and lost, or won over it: one for each that was discarded.
+    /// Collisions: galpixels and debris that arrived at an occupied cell, so that one of the two was discarded.
     pub collided: u32,
-    /// Fields that would have left their range and were clamped instead: nothing wraps.
+    /// Fields that would have left their range and were clamped; no field wraps.
     pub saturated: u32,
     /// Cells on the edge of a surface, in the map before propagation.
     pub edges: u32,
-    /// Cells that nothing reached.
+    /// Cells at which nothing arrived.
     pub holes: u32,
-    /// Holes inside a surface, filled as bullet holes.
+    /// Holes that were filled as bullet holes, inside a surface.
     pub bullets: u32,
-    /// Holes that were just unobscured, and hold debris without motion.
+    /// Just-unobscured holes that hold debris without motion.
     pub debris: u32,
-    /// Holes that were just unobscured, and hold a delayed galpixel.
+    /// Just-unobscured holes that hold a galpixel (galdebris).
     pub galdebris: u32,
-    /// Holes that stay empty; the display shows there what the fill_mode says.
+    /// Holes that stay empty; what the display shows there depends on the fill mode.
     pub empty: u32,
 }
 
 impl Tally {
-    /// Holes that something was put into.
+    /// Returns the holes that were filled.
     #[must_use]
     pub const fn filled(&self) -> u32 {
         self.bullets + self.debris + self.galdebris

@@ -1,35 +1,39 @@
-//! Layers: galpixmaps that move apart and are shown together, so that what is covered now can reappear.
+//! Layers: galpixmaps that move independently and are shown together, so that what is covered now can reappear.
 //!
-//! Within a map a collision is final: the galpixel that loses is gone. A layer is a map of its own; between layers it is decided
-//! anew in each frame who is shown, by (class, depth, layer), the smallest first. A second surface behind the first, an object
-//! that passes behind another one, samples that a renderer sends along because they are about to be uncovered: each waits in its
-//! layer until it is seen.
+//! Within a map a collision is final: the galpixel that loses is gone. A layer is a map of its own. Between layers each
+//! frame resolves anew which galpixel a cell shows: the smallest by (class, depth, layer). So a second surface behind
+//! the first, an object that passes behind another one, or samples that a renderer sends because they are about to be
+//! uncovered wait in their layer until they are seen.
 //!
-//! Layer 0, the *base*, is a [`Controller`]. Its map is what is shown: where a galpixel of another layer is nearer, the two
-//! change places (the other one is *seated*), a flag remembers it, and before the layers move on they change back. So the edge
-//! map, the fill ladder, inpainting and scan-out work on the shown picture as they do without layers, and where nothing is
-//! seated nothing is done. What was made up to fill a hole belongs to the base; being debris, it loses against any galpixel.
+//! Layer 0, the *base*, is a [`Controller`]; the others are *hidden layers*, whether they are seen or not. The base's
+//! map is the picture. Where a galpixel of a hidden layer is nearer, the two change places: the layer is *composited*
+//! with the base there, and a bit records it. Before the layers move, they are *restored*: the galpixels change back.
+//! So the edge map, the fill modes, inpainting and scan-out work on the picture as they do without layers, and cells in
+//! which nothing is composited cost no exchange. What fills a hole belongs to the base; it is debris, so it loses
+//! against any galpixel.
 //!
 //! ```text
-//!            ┌ front 0 ─▶ edge, sweep ─▶ back 0 ─┐
-//!  take      │                                   ├─ seat ─▶ fill ─▶ inpaint, scan-out
-//!  back ─▶ ──┤ front 1 ─▶ sweep, bullets ─▶ back 1 ┤
-//!            └ front 2 ─▶ …                      ┘
+//!             ┌ front 0 ─▶ edge, sweep ───▶ back 0 ─┐
+//! restore ──▶ ┤ front 1 ─▶ sweep, bullets ▶ back 1 ─┼─ composite ─▶ fill ─▶ inpaint, scan-out
+//!             └ front 2 ─▶ …                        ┘
 //! ```
 //!
-//! In a layer other than the base holes are transparent. If it has scratch memory, bullet holes are filled within it, so that
-//! nothing shines through the cracks of an object that comes nearer.
+//! Holes are transparent in hidden layers. A hidden layer with scratch memory fills its own bullet holes, so that
+//! nothing shows through the cracks of an object that comes nearer.
 //!
-//! **Cost:** a sweep for each layer, and for each layer but the base a comparison a cell, and twice an exchange of what is
-//! seated. **Memory:** two maps and two bits a cell for each layer more; an stationary one three maps and a word a cell.
+//! *Cost* per frame: a sweep per layer; per hidden layer also a comparison per cell and two exchanges per composited
+//! cell.
+//!
+//! *Memory* per hidden layer: two maps and two bits a cell; a stationary-source layer three maps, two bits and one word
+//! a cell.
 
+mod composite;
 mod layer;
-mod seat;
 mod shown;
 mod stationary;
 
 pub use layer::{Layer, composite_words};
-pub use stationary::{Displacement, displacement_word};
+pub use stationary::{Displacement, Stationary, displacement_word};
 
 use crate::error::SetupError;
 use crate::format::Format;
@@ -42,16 +46,16 @@ use crate::inpaint::pyramid::Pyramid;
 use crate::map::Galpixmap;
 use shown::Shown;
 
-/// A base and further layers over the same grid and format. With none of these it is a [`Controller`].
+/// A base and hidden layers over the same grid and format. Without hidden layers it acts as a [`Controller`].
 #[derive(Debug)]
 pub struct Layers<'p, 'l, F> {
     base: Controller<'p, F>,
     hidden: &'l mut [Layer<'p, F>],
-    /// Whether the front maps hold what is shown, rather than each its own galpixels.
-    seated: bool,
+    /// Whether the front maps are composited; otherwise each holds its own galpixels.
+    composited: bool,
 }
 
-/// Makes the next frame of all layers. The entry point of the mode `CONSTANT_TIME`.
+/// Makes the next frame of all layers, in constant time or data-dependent.
 pub(crate) fn make<F: Format, const CONSTANT_TIME: bool>(layers: &mut Layers<'_, '_, F>, settings: &Settings) -> Tally {
     composite::<F, CONSTANT_TIME>(layers);
     restore::<F, CONSTANT_TIME>(layers);
@@ -59,7 +63,7 @@ pub(crate) fn make<F: Format, const CONSTANT_TIME: bool>(layers: &mut Layers<'_,
     let mut tally = move_on::<F, CONSTANT_TIME>(front, back, scratch, settings, *frame);
     for layer in layers.hidden.iter_mut() {
         layer.tally = layer.move_on::<CONSTANT_TIME>(settings, *frame);
-        layer.seat_back::<CONSTANT_TIME>(back);
+        layer.composite_back::<CONSTANT_TIME>(back);
     }
     let around = Shown { front, hidden: layers.hidden };
     fill_holes::<F, CONSTANT_TIME>(&around, back, scratch, settings, &mut tally);
@@ -68,72 +72,78 @@ pub(crate) fn make<F: Format, const CONSTANT_TIME: bool>(layers: &mut Layers<'_,
     for layer in layers.hidden.iter_mut() {
         layer.swap();
     }
-    layers.seated = true;
+    layers.composited = true;
     layers.count_shown();
     tally
 }
 
-/// Decides anew what the front maps show; nothing if they show it already.
+/// Composites the front maps, unless they are composited.
 pub(crate) fn composite<F: Format, const CONSTANT_TIME: bool>(layers: &mut Layers<'_, '_, F>) {
-    if !layers.seated {
+    if !layers.composited {
         for layer in layers.hidden.iter_mut() {
             layer.draw::<CONSTANT_TIME>();
-            layer.seat_front::<CONSTANT_TIME>(&mut layers.base.front);
+            layer.composite_front::<CONSTANT_TIME>(&mut layers.base.front);
         }
-        layers.seated = true;
+        layers.composited = true;
     }
 }
 
-/// Gives each layer its own galpixels back.
+/// Restores the front maps, if they are composited: each then holds its own galpixels.
 pub(crate) fn restore<F: Format, const CONSTANT_TIME: bool>(layers: &mut Layers<'_, '_, F>) {
-    if layers.seated {
+    if layers.composited {
         for layer in layers.hidden.iter_mut().rev() {
-            layer.take_back::<CONSTANT_TIME>(&mut layers.base.front);
+            layer.restore::<CONSTANT_TIME>(&mut layers.base.front);
         }
-        layers.seated = false;
+        layers.composited = false;
     }
 }
 
 impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
-    /// A base and further layers, each with the maps that it already holds.
+    /// Creates layers from a base and hidden layers, each with the galpixels that its maps hold, and composites them.
     ///
     /// *Errors:* a layer over another grid than the base's.
     pub fn new(base: Controller<'p, F>, hidden: &'l mut [Layer<'p, F>]) -> Result<Self, SetupError> {
         if hidden.iter().any(|layer| layer.front.grid() != base.front.grid()) {
             return Err(SetupError::GridsDiffer);
         }
-        let mut layers = Self { base, hidden, seated: false };
+        let mut layers = Self { base, hidden, composited: false };
         layers.composite();
         Ok(layers)
     }
 
-    /// Makes the next frame of all layers and shows it; the counts are the base's, whose holes are the cells that no layer
-    /// reached. Each further layer keeps its own, see [`Layer::tally`]. Work depends on the picture.
+    /// Makes the next frame of all layers and shows it. Data-dependent: the work depends on the picture.
+    ///
+    /// Returns the counts of the base, whose holes are the cells that no layer reached; [`Layer::tally`] has those of
+    /// each hidden layer.
     pub fn step(&mut self, settings: &Settings) -> Tally {
         F::layers_step(self, settings)
     }
 
-    /// Makes the next frame of all layers by instructions that do not depend on the picture. Same arguments, same bits as
-    /// [`Self::step`].
+    /// Makes the next frame of all layers and shows it, in constant time: the instructions do not depend on the
+    /// picture. The result equals that of [`Self::step`] bit by bit.
     pub fn step_constant_time(&mut self, settings: &Settings) -> Tally {
         F::layers_step_constant_time(self, settings)
     }
 
-    /// Decides anew what the front maps show; nothing if they show it already. An update that was written into a layer is seen
-    /// from then on, and not only after the next step.
+    /// Composites the front maps anew after an update was written into a layer, so that the update is seen before the
+    /// next step. Does nothing if no layer was written to.
     pub fn composite(&mut self) {
-        F::layers_composite(self);
-        self.count_shown();
+        if !self.composited {
+            F::layers_composite(self);
+            self.count_shown();
+        }
     }
 
-    /// Returns the layers but the base, the one after it first.
+    /// Returns the hidden layers; layer 1 comes first.
     #[must_use]
     pub fn hidden(&self) -> &[Layer<'p, F>] {
         self.hidden
     }
 
-    /// The galpixels of layer `layer` (0: the base), to write an update into; of an stationary layer those in the cells where they
-    /// are stored. Nothing if there is no such layer. What is shown is decided anew by [`Self::composite`], or before the next step.
+    /// Returns the galpixels of layer `layer` (0: the base), to write an update into; those of a stationary-source
+    /// layer in the cells where they are stored. Returns `None` if there is no such layer.
+    ///
+    /// Restores the layers: the picture is complete again after [`Self::composite`] or the next step.
     pub fn layer_mut(&mut self, layer: usize) -> Option<&mut Galpixmap<'p, F>> {
         F::layers_restore(self);
         match layer.checked_sub(1) {
@@ -142,53 +152,57 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
         }
     }
 
-    /// The displacements of an stationary layer, a word for each cell, see [`displacement_word`]; else nothing.
+    /// Returns the displacements of a stationary-source layer, a word for each cell (see [`displacement_word`]); `None`
+    /// for any other layer. Restores the layers, as [`Self::layer_mut`].
     pub fn displacements_mut(&mut self, layer: usize) -> Option<&mut [u32]> {
         F::layers_restore(self);
         self.hidden.get_mut(layer.checked_sub(1)?)?.displacements_mut()
     }
 
-    /// Counts the cells that show each layer but the base.
+    /// Counts the cells in which each hidden layer is seen. Compositing has set the counts to 0.
     fn count_shown(&mut self) {
-        for layer in self.hidden.iter_mut() {
-            layer.shown = 0;
-        }
         for index in 0..edge::words(self.base.front.grid()) {
             let mut taken = 0;
-            for layer in self.hidden.iter_mut().rev() {
-                let seats = layer.seats().get(index).copied().unwrap_or(0);
-                layer.shown += (seats & !taken).count_ones();
-                taken |= seats;
+            // A loop over `iter_mut().rev()` is unrolled by rustc 1.95 for thumbv6m-none-eabi, which finds the number
+            // of its rounds as the distance of two pointers by the size of a layer: `__aeabi_uidiv`. A slice has its
+            // length.
+            let mut rest = &mut *self.hidden;
+            while let Some((layer, before)) = rest.split_last_mut() {
+                let composited = layer.composited().get(index).copied().unwrap_or(0);
+                layer.shown += (composited & !taken).count_ones();
+                taken |= composited;
+                rest = before;
             }
         }
     }
 
-    /// Which layer a cell shows; 0, the base, also where it is empty.
+    /// Returns the layer that a cell shows; 0, the base, also where the cell is empty or outside of the map.
     #[must_use]
     pub fn layer_at(&self, cell: u32) -> usize {
-        self.hidden.iter().rposition(|layer| seat::bit(layer.seats(), cell) != 0).map_or(0, |hidden| hidden + 1)
+        self.hidden.iter().rposition(|layer| composite::is_set(layer.composited(), cell)).map_or(0, |hidden| hidden + 1)
     }
 
-    /// Whether a layer is stationary, see [`Layer::stationary`].
-    #[must_use]
-    pub fn is_stationary(&self, layer: usize) -> bool {
+    /// Returns whether a layer is a stationary-source layer, see [`Layer::stationary`].
+    pub(crate) fn is_stationary(&self, layer: usize) -> bool {
         layer.checked_sub(1).and_then(|hidden| self.hidden.get(hidden)).is_some_and(Layer::is_stationary)
     }
 
-    /// What is shown, if nothing was written into a layer since.
+    /// Returns the picture, unless a layer was written to since the last step or [`Self::composite`].
     #[must_use]
     pub const fn front(&self) -> &Galpixmap<'p, F> {
         &self.base.front
     }
 
-    /// The base, as it is shown.
+    /// Returns the base, whose front map is the picture.
     #[must_use]
     pub const fn base(&self) -> &Controller<'p, F> {
         &self.base
     }
 
-    /// The winner map of a layer: for each cell, the cell of the map before that the layer's *own* galpixel there came from, be it
-    /// shown or not. Empty if none was lent or there is no such layer. Of an stationary layer the cells where galpixels are stored.
+    /// Returns the winner map of a layer: for each cell the cell of the frame before that the layer's *own* galpixel
+    /// there came from, seen or not; in a stationary-source layer the cell where it is stored.
+    ///
+    /// Empty if no winner map was provided or there is no such layer.
     #[must_use]
     pub fn winners(&self, layer: usize) -> &[u32] {
         match layer.checked_sub(1) {
@@ -197,7 +211,7 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
         }
     }
 
-    /// The frame counter, see [`Controller::frame`].
+    /// Returns the frame counter, see [`Controller::frame`].
     #[must_use]
     pub const fn frame(&self) -> u32 {
         self.base.frame
@@ -208,7 +222,8 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
         self.base.frame = frame;
     }
 
-    /// Fills what the last step uncovered, and no layer had, by push-pull, see [`Controller::inpaint`].
+    /// Fills by push-pull what the last step uncovered and no layer holds, see [`Controller::inpaint`]. Returns the
+    /// number of cells filled.
     pub fn inpaint<V: Filling>(
         &mut self,
         settings: &Settings,
@@ -218,7 +233,8 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
         self.base.inpaint(settings, inpainting, pyramid)
     }
 
-    /// Fills what the last step uncovered, and no layer had, by metamers, see [`Controller::synthesise`].
+    /// Fills by metamers what the last step uncovered and no layer holds, see [`Controller::synthesise`]. Returns the
+    /// number of cells filled.
     ///
     /// *Errors:* memory that is too short for the map; then nothing is filled.
     pub fn synthesise(

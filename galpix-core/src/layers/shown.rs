@@ -1,14 +1,14 @@
-//! What was shown before, while the layers have their own galpixels back.
+//! The picture before a frame, read from layers that hold their own galpixels again.
 
 use crate::format::Format;
 use crate::format::record::{Record, Words};
 use crate::frame::fill::Around;
 use crate::frame::reference::choose_words;
+use crate::layers::composite;
 use crate::layers::layer::Layer;
-use crate::layers::seat;
 use crate::map::Galpixmap;
 
-/// The front maps, each with its own galpixels, and where the layers had and have their seats.
+/// The front maps, each with its own galpixels, and the composite masks of the frame before and of this one.
 pub(super) struct Shown<'s, 'p, F> {
     pub front: &'s Galpixmap<'p, F>,
     pub hidden: &'s [Layer<'p, F>],
@@ -24,14 +24,14 @@ impl<F: Format> Around for Shown<'_, '_, F> {
     fn before(&self, cell: u32) -> Option<Words> {
         let mut shown = self.front.words_at(cell)?;
         for layer in self.hidden {
-            let seated = seat::bit(layer.seats_before(), cell);
-            shown = choose_words(self.front.record(), seated, &layer.front.words_at(cell)?, &shown);
+            let mask = composite::mask(layer.composited_before(), cell);
+            shown = choose_words(self.front.record(), mask, &layer.front.words_at(cell)?, &shown);
         }
         Some(shown)
     }
 
     #[inline(always)]
     fn foreign(&self, cell: u32) -> u32 {
-        self.hidden.iter().fold(0, |foreign, layer| foreign | seat::bit(layer.seats(), cell))
+        self.hidden.iter().fold(0, |foreign, layer| foreign | composite::mask(layer.composited(), cell))
     }
 }

@@ -1,9 +1,11 @@
-//! Galpixels that stay where they are stored and know their displacement, so that any number of them may want one cell.
+//! Stationary sources: galpixels that stay where they are stored and know their displacement, so that any number of
+//! them may be candidates for one cell.
 //!
-//! In a map that moves, the losers of a collision are gone. Here a galpixel keeps its cell for as long as it lives; its words make
-//! the same step as anywhere, the cells that it moved are added to its displacement, and it is drawn into another map at the
-//! cell of its own plus its displacement, if it is the smallest by (class, depth, source) there. So an image whose samples do not
-//! lie where they are seen, as that of a depth discontinuity occlusion camera, moves like any other.
+//! In a map that moves, the losers of a collision are gone. Here a galpixel keeps its cell for as long as it lives. Its
+//! words make the same step as in any map, and the cells that it moved are added to its displacement. It is drawn into
+//! another map, at its own cell plus its displacement, if it is the smallest by (class, depth, source) there. So an
+//! image whose samples do not lie where they are seen, as that of a depth discontinuity occlusion camera, moves like
+//! any other.
 
 use crate::format::Format;
 use crate::format::rounding::Rounding;
@@ -14,10 +16,11 @@ use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// Whole cells along the row and along the column from where a galpixel is stored to where it is drawn, each -32768 to 32767: across any map.
+/// A displacement from the cell where a galpixel is stored to the cell where it is drawn: whole cells along the row and
+/// along the column, each -32768 to 32767, which spans any map.
 pub type Displacement = [i32; 2];
 
-/// The word of a displacement: x in the low 16 bits, y in the high ones, both clamped to their range.
+/// Returns the word of a displacement: x in the low 16 bits, y in the high ones, both clamped to their range.
 #[inline(always)]
 #[must_use]
 pub fn displacement_word([x, y]: Displacement) -> u32 {
@@ -25,24 +28,27 @@ pub fn displacement_word([x, y]: Displacement) -> u32 {
     clamped(x) | clamped(y) << 16
 }
 
-/// The displacement of a word.
+/// Returns the displacement of a word.
 #[inline(always)]
 pub(super) const fn displacement(word: u32) -> Displacement {
     [(word << 16) as i32 >> 16, word as i32 >> 16]
 }
 
-/// Galpixels in the cells where they are stored, with a word of displacement for each.
+/// The sources of a stationary-source layer, in caller-provided buffers.
 #[derive(Debug)]
-pub(super) struct Stationary<'p, F> {
+pub struct Stationary<'p, F> {
+    /// The galpixels, in the cells where they are stored.
     pub stored: Galpixmap<'p, F>,
+    /// One word for each cell, see [`displacement_word`].
     pub displacements: &'p mut [u32],
 }
 
 impl<F: Format> Stationary<'_, F> {
-    /// Draws what is stored into `drawn`, by a step later where a rounding and a frame counter are given.
+    /// Draws the stored galpixels into `drawn`. With a rounding and a frame counter they make the step of that frame
+    /// first.
     ///
-    /// Lost is what has no cell at the moment; it stays stored, and may come back.
-    pub fn draw<const CONSTANT_TIME: bool>(
+    /// A galpixel that has no cell at the moment counts as lost; it stays stored, and may come back.
+    pub(super) fn draw<const CONSTANT_TIME: bool>(
         &mut self,
         drawn: &mut Galpixmap<'_, F>,
         winners: &mut [u32],
@@ -61,11 +67,11 @@ impl<F: Format> Stationary<'_, F> {
                 continue;
             }
             for (x, source) in (0..grid.width() as i32).zip(start..) {
-                let class = self.stored.class(source) as u32;
-                let there = opaque(below(class, Class::Empty as u32));
+                let there = below(self.stored.class(source) as u32, Class::Empty as u32);
                 if !CONSTANT_TIME && there == 0 {
                     continue;
                 }
+                let there = if CONSTANT_TIME { opaque(there) } else { there };
                 let mut words = self.stored.words_at(source).unwrap_or_default();
                 let Some(place) = self.displacements.get_mut(source as usize) else { return tally };
                 if let Some(thresholds) = &thresholds {

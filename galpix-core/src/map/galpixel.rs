@@ -1,26 +1,26 @@
-//! One galpixel as a person reads and writes it, with units; its stored form is in [`crate::format::record`].
+//! A galpixel with units, for reading and writing single cells. The stored form is in [`crate::format::record`].
 
 use fixed::types::I32F32;
 
 use crate::format::record::{Field, Record, Words};
 
-/// What a cell holds. The numbers are the stored ones; a smaller one wins a collision.
+/// What a cell holds. The discriminants are stored; a galpixel of a smaller class wins a collision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[repr(u8)]
 pub enum Class {
     /// A fully-fledged galpixel.
     Galpixel = 0,
-    /// Debris of a cell that was uncovered in this very frame. From the next frame on it is debris.
+    /// What a fill left in a cell that was unobscured in this frame. It becomes debris in the next frame.
     JustUnobscured = 1,
-    /// Something left behind; loses against any galpixel.
+    /// Something that was left behind; it loses against any galpixel.
     Debris = 2,
-    /// Nothing; its colour is what the display still shows there.
+    /// Nothing; the cell's colour is what the display keeps showing there.
     Empty = 3,
 }
 
 impl Class {
-    /// The class with this stored number; only the low two bits count.
+    /// Returns the class with this discriminant; only the low two bits are used.
     #[inline(always)]
     #[must_use]
     pub const fn from_bits(bits: u32) -> Self {
@@ -33,18 +33,19 @@ impl Class {
     }
 }
 
-/// One galpixel with units.
+/// A galpixel with units.
 ///
-/// *Units:* offsets in cells from the cell's centre, `-1/2 .. 1/2`; depth as a part of the whole depth range, `0 .. 1`,
-/// smaller is nearer; velocity and acceleration in cells a frame and cells a frame² (depth: parts of the range);
-/// luminosity rate in 8-bit code values a frame. What a layout lacks is ignored when stored and 0 when read.
+/// *Units:* offsets in cells from the cell's centre, `-1/2 .. 1/2`; depth as a fraction of the whole depth range, `0 ..
+/// 1`, smaller is nearer; velocity in cells per frame and acceleration in cells per frame² (in depth: fractions of the
+/// range instead of cells); luminosity rate in 8-bit code values per frame. Fields that a layout lacks are ignored when
+/// a galpixel is stored and 0 when it is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Galpixel {
     /// What the cell holds.
     pub class: Class,
     /// 8-bit red, green and blue.
     pub colour: [u8; 3],
-    /// Place within the cell.
+    /// Offset in x and y from the centre of the cell.
     pub offset: [I32F32; 2],
     /// Depth.
     pub depth: I32F32,
@@ -54,7 +55,7 @@ pub struct Galpixel {
     pub acceleration: [I32F32; 3],
     /// Rate of the luminosity.
     pub luminosity_rate: I32F32,
-    /// The object's tag; its low bits are kept.
+    /// The object's tag; only its low bits are stored.
     pub tag: u32,
 }
 
@@ -73,13 +74,14 @@ impl Default for Galpixel {
     }
 }
 
-/// `value` with `frac` fraction bits, to nearest, halves upwards, clamped to `low ..= high`; and whether it was clamped.
+/// Returns `value` with `frac` fraction bits, rounded to nearest, halves upwards, and clamped to `low ..= high`; and
+/// whether it was clamped.
 const fn quantised(value: I32F32, frac: i32, low: i64, high: i64) -> (i32, bool) {
     let shift = 32 - frac;
     let bits = value.to_bits();
     let raw = if shift <= 0 {
-        // A field as fine as I32F32 or finer: motion in depth, whose unit is the whole range. What would overflow is far
-        // beyond the field and clamped either way.
+        // The field has at least the 32 fraction bits of I32F32: a motion in depth, whose unit is the whole range.
+        // Values that would overflow in the shift are outside of the field's range, so that they are clamped first.
         if bits < low {
             low - 1
         } else if bits > high {
@@ -90,7 +92,7 @@ const fn quantised(value: I32F32, frac: i32, low: i64, high: i64) -> (i32, bool)
     } else if shift > 62 {
         0
     } else {
-        // The half is added after the last bit but one has gone, so that the sum cannot overflow.
+        // All dropped bits but one are dropped before the half is added, so that the sum cannot overflow.
         ((bits >> (shift - 1)) + 1) >> 1
     };
     if raw < low {
@@ -102,36 +104,40 @@ const fn quantised(value: I32F32, frac: i32, low: i64, high: i64) -> (i32, bool)
     }
 }
 
-/// `raw` with `frac` fraction bits as a number.
+/// Returns the number that `raw` with `frac` fraction bits stands for.
 const fn widened(raw: i32, frac: i32) -> I32F32 {
     let shift = 32 - frac;
     if shift >= 0 { I32F32::from_bits((raw as i64) << shift) } else { I32F32::from_bits(raw as i64 >> -shift) }
 }
 
+/// Returns the smallest and the largest two's complement number of a field.
 const fn signed_range(field: Field) -> (i64, i64) {
     if field.bits == 0 { (0, 0) } else { (-(1 << (field.bits - 1)), (1 << (field.bits - 1)) - 1) }
 }
 
+/// Returns the largest unsigned number of a field.
 const fn unsigned_top(field: Field) -> i64 {
     (1i64 << field.bits) - 1
 }
 
 impl Galpixel {
-    /// Fraction bits of the stored velocity and acceleration of `component` in this type's units.
+    /// Returns the fraction bits of the stored velocity and acceleration of `component` in the units of this type.
     const fn fracs(record: &Record, component: usize) -> (i32, i32) {
         let scale = &record.scales[component];
-        // In depth a unit is the whole range, 2^depth_int bins.
+        // In depth the unit is the whole range, 2^depth_int bins.
         let unit = if component == 2 { record.depth().bits as i32 - scale.position_frac as i32 } else { 0 };
         (scale.velocity_frac as i32 + unit, scale.acceleration_frac as i32 + unit)
     }
 
+    /// Returns the fraction bits of the stored luminosity rate in the units of this type.
     const fn luminosity_frac(record: &Record) -> i32 {
         record.luminosity_frac as i32 - (8 - record.colour_format().luminosity_bits() as i32)
     }
 
-    /// The stored words, and how many fields of velocity and acceleration had to be clamped to their range.
+    /// Returns the stored words, and how many of the fields velocity, acceleration and luminosity rate were clamped to
+    /// their range. Offsets and depth are clamped too, but not counted.
     ///
-    /// *Rounding:* to nearest, halves upwards. Offsets and depth are clamped to the cell and to the range uncounted.
+    /// *Rounding:* to nearest, halves upwards; colours by dropping low bits.
     #[must_use]
     pub(crate) fn stored(&self, record: &Record) -> (Words, u32) {
         let mut words: Words = Default::default();
@@ -173,7 +179,7 @@ impl Galpixel {
         (words, saturated)
     }
 
-    /// The galpixel that these words hold.
+    /// Returns the galpixel that these words hold.
     #[must_use]
     pub(crate) fn read(record: &Record, words: &Words) -> Self {
         let colour = record.colour().unsigned(words);

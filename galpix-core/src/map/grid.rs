@@ -1,11 +1,11 @@
-//! Where cells are: the size of a map, its margin, and the first cell of each row.
+//! The size of a map, its margin, and the first cell of each row.
 //!
-//! A scatter needs the start of an arbitrary row. The starts are a table, lent by the caller and filled by additions: one
-//! load answers at once whether a row exists and where it begins, and no pass multiplies.
+//! Propagation needs the first cell of arbitrary rows. A table in a caller-provided buffer holds them, so that one load
+//! says whether a row exists and where it begins, without a multiplication. The table is filled by additions.
 
 use crate::error::SetupError;
 
-/// Columns and rows of a map beyond the display, "in the margin".
+/// The overscan margin: columns and rows of a map beyond the display.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Margin {
@@ -23,14 +23,14 @@ impl Margin {
     /// No margin: the map is the display.
     pub const NONE: Self = Self { left: 0, right: 0, top: 0, bottom: 0 };
 
-    /// The same margin on all four sides.
+    /// Returns a margin with the same number of cells on all four sides.
     #[must_use]
     pub const fn all(cells: u32) -> Self {
         Self { left: cells, right: cells, top: cells, bottom: cells }
     }
 }
 
-/// The grid of cells that two maps share.
+/// The grid of cells of a map. Maps that work together have equal grids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid<'r> {
     width: u32,
@@ -41,13 +41,14 @@ pub struct Grid<'r> {
 }
 
 impl<'r> Grid<'r> {
-    /// Rows of a map for a display of `height` rows: the words that [`Grid::new`] must be lent.
+    /// Returns the rows of a map for a display of `height` rows: the words of the buffer for [`Grid::new`].
     #[must_use]
     pub const fn rows(height: u32, margin: Margin) -> usize {
         height.saturating_add(margin.top).saturating_add(margin.bottom) as usize
     }
 
-    /// Cells of a map for a display of `width` x `height`, margin included; 0 if such a map cannot exist.
+    /// Returns the cells of a map for a display of `width` x `height` cells, margin included; 0 if such a map cannot
+    /// exist.
     #[must_use]
     pub const fn cells_for(width: u32, height: u32, margin: Margin) -> u32 {
         let columns = width.saturating_add(margin.left).saturating_add(margin.right);
@@ -58,9 +59,10 @@ impl<'r> Grid<'r> {
         columns * rows
     }
 
-    /// A grid for a display of `width` x `height` cells; the table of row starts is written into `starts`.
+    /// Makes the grid for a display of `width` x `height` cells, and writes the table of row starts into `starts`.
     ///
-    /// *Errors:* a side of 0, a side over 2^15 or more than 2^28 cells (margin included), or a table that is too short.
+    /// *Errors:* a side of 0, a side of more than 2^15 or more than 2^28 cells (margin included), or a buffer shorter
+    /// than [`Self::rows`].
     pub fn new(width: u32, height: u32, margin: Margin, starts: &'r mut [u32]) -> Result<Self, SetupError> {
         let cells = Self::cells_for(width, height, margin);
         if cells == 0 {
@@ -79,10 +81,10 @@ impl<'r> Grid<'r> {
         Ok(Self { width, height: rows as u32, cells, margin, starts })
     }
 
-    /// The same rows over fewer cells: row `y` lies where row `y + rows` does, for maps of which only some rows are needed at
-    /// a time. The table of row starts is written into `starts`.
+    /// Makes a grid whose rows `y` and `y + rows` occupy the same cells, for maps of which only `rows` successive rows
+    /// are needed at a time. Writes the table of row starts, one for each row of the grid `of`, into `starts`.
     ///
-    /// *Errors:* no rows, or a table that is too short.
+    /// *Errors:* no rows, or a buffer shorter than the height of `of`.
     pub fn window(of: &Grid<'_>, rows: u32, starts: &'r mut [u32]) -> Result<Self, SetupError> {
         if rows == 0 {
             return Err(SetupError::Size { width: of.width, height: rows });
@@ -106,57 +108,57 @@ impl<'r> Grid<'r> {
         Ok(Self { cells, starts, ..*of })
     }
 
-    /// Columns, margin included.
+    /// Returns the columns, margin included.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.width
     }
 
-    /// Rows, margin included.
+    /// Returns the rows, margin included.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.height
     }
 
-    /// Cells, margin included.
+    /// Returns the cells, margin included.
     #[must_use]
     pub const fn cells(&self) -> u32 {
         self.cells
     }
 
-    /// What lies outside of the display.
+    /// Returns the margin.
     #[must_use]
     pub const fn margin(&self) -> Margin {
         self.margin
     }
 
-    /// Columns of the display.
+    /// Returns the columns of the display.
     #[must_use]
     pub const fn display_width(&self) -> u32 {
         self.width - self.margin.left - self.margin.right
     }
 
-    /// Rows of the display.
+    /// Returns the rows of the display.
     #[must_use]
     pub const fn display_height(&self) -> u32 {
         self.height - self.margin.top - self.margin.bottom
     }
 
-    /// The first cell of row `y`, if there is such a row. `y` counts from the topmost row of the margin.
+    /// Returns the first cell of row `y`, if there is such a row. Row 0 is the topmost row of the margin.
     #[inline(always)]
     #[must_use]
     pub fn row(&self, y: i32) -> Option<u32> {
         self.starts.get(y as u32 as usize).copied()
     }
 
-    /// The cell in column `x` of row `y`, if there is one. Both count from the corner of the margin.
+    /// Returns the cell in column `x` of row `y`, if there is one. Both count from the top left corner of the margin.
     #[inline(always)]
     #[must_use]
     pub fn cell(&self, x: i32, y: i32) -> Option<u32> {
         if (x as u32) < self.width { Some(self.row(y)? + x as u32) } else { None }
     }
 
-    /// The starts of all rows, from the top.
+    /// Returns the first cells of all rows, from the top.
     pub(crate) fn starts(&self) -> &'r [u32] {
         self.starts
     }

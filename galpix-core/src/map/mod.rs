@@ -1,7 +1,8 @@
-//! A galpixmap: a grid of galpixels over memory that the caller lends.
+//! A galpixmap: a grid of galpixels over a caller-provided buffer.
 //!
-//! The memory is one slice of 32-bit words. Word `k` of all cells forms a plane, and the planes follow each other, so that
-//! neighbours lie side by side: `memory[k * cells + cell]`. What is in a map survives the map; lend the memory again to go on.
+//! The buffer is a slice of 32-bit words. Word `k` of all cells forms a plane, and the planes follow each other, so
+//! that neighbours are adjacent: word `k` of cell `cell` is `memory[k * cells + cell]`. The content outlives the map: a
+//! new map over the same buffer continues with it.
 
 pub mod galpixel;
 pub mod grid;
@@ -22,44 +23,44 @@ pub struct Galpixmap<'p, F> {
 }
 
 impl<'p, F: Format> Galpixmap<'p, F> {
-    /// Words of memory that a map over `grid` needs.
+    /// Returns the words of the buffer that a map over `grid` needs.
     #[must_use]
     pub fn words(grid: &Grid<'_>, format: F) -> usize {
         format.record().words() * grid.cells() as usize
     }
 
-    /// Bytes of memory for one galpixel.
+    /// Returns the bytes of the buffer for each galpixel.
     #[must_use]
     pub fn bytes_per_galpixel(format: F) -> usize {
         format.record().bytes()
     }
 
-    /// Lays an empty map over `memory`, whose surplus stays untouched.
+    /// Makes an empty map over the first words of `memory`; surplus words are not changed.
     ///
-    /// *Errors:* memory shorter than [`Self::words`]; then it is left as it was.
+    /// *Errors:* memory shorter than [`Self::words`], which is then not changed.
     pub fn new(grid: Grid<'p>, format: F, memory: &'p mut [u32]) -> Result<Self, SetupError> {
         let mut map = Self::over(grid, format, memory)?;
         map.clear();
         Ok(map)
     }
 
-    /// Lays a map over `memory` that already holds one of the same grid, layout and budget.
+    /// Makes a map over `memory` that already holds a map of the same grid and format.
     ///
-    /// Any content is a map: bits that make no sense together are at worst ugly.
+    /// Any content is valid: arbitrary bits give an arbitrary picture, but no panic.
     ///
     /// *Errors:* memory shorter than [`Self::words`].
     pub fn over(grid: Grid<'p>, format: F, memory: &'p mut [u32]) -> Result<Self, SetupError> {
         let need = Self::words(&grid, format);
         let have = memory.len();
         let too_short = SetupError::TooShort { plane: "galpixmap", need, have };
-        let mut rest = memory;
+        let mut remaining = memory;
         let mut planes: [&'p mut [u32]; MAX_WORDS] = Default::default();
         for plane in planes.iter_mut().take(format.record().words()) {
-            let Some((head, tail)) = rest.split_at_mut_checked(grid.cells() as usize) else {
+            let Some((head, tail)) = remaining.split_at_mut_checked(grid.cells() as usize) else {
                 return Err(too_short);
             };
             *plane = head;
-            rest = tail;
+            remaining = tail;
         }
         Ok(Self { grid, format, planes })
     }
@@ -72,7 +73,7 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         }
     }
 
-    /// The grid.
+    /// Returns the grid.
     #[inline(always)]
     #[must_use]
     pub const fn grid(&self) -> &Grid<'p> {
@@ -85,30 +86,35 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         self.format
     }
 
-    /// The stored form.
+    /// Returns the stored form of a galpixel.
     #[inline(always)]
     #[must_use]
     pub fn record(&self) -> &Record {
         self.format.record()
     }
 
-    /// The words of a plane, one a cell.
+    /// Returns word `word` of all cells, if the record has such a word.
     #[must_use]
     pub fn plane(&self, word: usize) -> Option<&[u32]> {
         self.planes.get(word).filter(|plane| !plane.is_empty()).map(|plane| &**plane)
     }
 
+    /// Returns all planes; those of words that the record lacks are empty.
     #[inline(always)]
     pub(crate) fn planes(&self) -> &[&'p mut [u32]; MAX_WORDS] {
         &self.planes
     }
 
+    /// Returns all planes; those of words that the record lacks are empty.
     #[inline(always)]
     pub(crate) fn planes_mut(&mut self) -> &mut [&'p mut [u32]; MAX_WORDS] {
         &mut self.planes
     }
 
-    /// Stores a galpixel; returns how many of its fields had to be clamped, or `None` outside of the map.
+    /// Stores a galpixel at column `x`, row `y` of the map (margin included). Returns how many of the fields velocity,
+    /// acceleration and luminosity rate were clamped to their range, or `None` outside of the map.
+    ///
+    /// *Rounding:* to nearest, halves upwards; colours by dropping low bits.
     pub fn store(&mut self, x: i32, y: i32, galpixel: &Galpixel) -> Option<u32> {
         let cell = self.grid.cell(x, y)?;
         let (words, saturated) = galpixel.stored(self.format.record());
@@ -116,28 +122,28 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         Some(saturated)
     }
 
-    /// The words in which this map stores a galpixel, and how many of its fields had to be clamped. Those beyond the record's
-    /// are 0.
+    /// Returns the words in which this map stores a galpixel, and how many fields were clamped, as [`Self::store`].
+    /// Words that the record does not use are 0.
     #[must_use]
     pub fn stored(&self, galpixel: &Galpixel) -> ([u32; MAX_WORDS], u32) {
         galpixel.stored(self.record())
     }
 
-    /// The same words with another colour word: for many galpixels that differ in their colour only.
+    /// Replaces the colour word of a stored galpixel, for many galpixels that differ in their colour only.
     #[must_use]
     pub fn recoloured(&self, mut words: [u32; MAX_WORDS], colour: u32) -> [u32; MAX_WORDS] {
         self.record().colour().set(&mut words, colour);
         words
     }
 
-    /// Reads the galpixel at column `x`, row `y` of the map (margin included).
+    /// Reads the galpixel at column `x`, row `y` of the map (margin included), or `None` outside of the map.
     #[must_use]
     pub fn load(&self, x: i32, y: i32) -> Option<Galpixel> {
         let words = self.words_at(self.grid.cell(x, y)?)?;
         Some(Galpixel::read(self.record(), &words))
     }
 
-    /// What a cell holds; empty outside of the map.
+    /// Returns the class of a cell; empty outside of the map.
     #[inline(always)]
     #[must_use]
     pub fn class(&self, cell: u32) -> Class {
@@ -148,7 +154,7 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         }
     }
 
-    /// The words of a cell, or nothing outside of the map.
+    /// Returns the words of a cell, or `None` outside of the map.
     #[inline(always)]
     pub(crate) fn words_at(&self, cell: u32) -> Option<Words> {
         let mut words = [0; MAX_WORDS];
@@ -158,7 +164,7 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         Some(words)
     }
 
-    /// Writes the words of a cell; nothing outside of the map.
+    /// Writes the words of a cell; does nothing outside of the map.
     #[inline(always)]
     pub(crate) fn put(&mut self, cell: u32, words: &Words) {
         for (plane, word) in self.planes.iter_mut().zip(words).take(self.format.record().words()) {
@@ -168,13 +174,14 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         }
     }
 
-    /// Class and depth of a cell as one number, the smaller the nearer, or nothing outside of the map.
+    /// Returns the key of a cell, which is its class and depth as one number: smaller is nearer. `None` outside of the
+    /// map.
     #[inline(always)]
     pub(crate) fn key_at(&self, cell: u32) -> Option<u32> {
         self.keys(cell as usize..cell as usize + 1).next()
     }
 
-    /// Class and depth of some cells as one number each, the smaller the nearer; nothing if they are not all in the map.
+    /// Returns the keys of some cells, as [`Self::key_at`]; none if not all cells are in the map.
     #[inline(always)]
     pub(crate) fn keys(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
         let record = self.record();
@@ -191,7 +198,7 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         })
     }
 
-    /// A field of a cell as a two's complement number; 0 outside of the map.
+    /// Returns a field of a cell as a two's complement number; 0 outside of the map.
     #[inline(always)]
     pub(crate) fn signed(&self, field: Field, cell: u32) -> i32 {
         let ((upper, lower), cell) = (field.words(), cell as usize);
@@ -201,28 +208,28 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         }
     }
 
-    /// Whether some cells are all empty.
+    /// Returns whether some cells are all empty.
     #[inline(always)]
     pub(crate) fn all_empty(&self, cells: Range<usize>) -> bool {
         let (word, _) = self.record().class().words();
         let class = self.record().class().extract();
         let cells = self.planes[word].get(cells).unwrap_or_default();
-        // Empty is the class with all its bits set.
+        // The class of an empty cell has all its bits set.
         let common = cells.iter().fold(u32::MAX, |common, &word| common & word);
         class.unsigned(common, common) == Class::Empty as u32
     }
 
-    /// Whether any of `count` cells from `cell` on is empty.
+    /// Returns whether any of `count` cells from `cell` on is empty.
     #[inline(always)]
     pub(crate) fn any_empty(&self, cell: u32, count: u32) -> bool {
         let (word, _) = self.record().class().words();
         let cells = self.planes[word].get(cell as usize..(cell + count) as usize).unwrap_or_default();
-        // Empty is the class with both its bits set: there the upper one stays when it meets the lower one.
+        // Only the class of an empty cell has both bits set.
         let any = cells.iter().fold(0, |any, word| any | word & word << 1);
         any >> self.record().class().shift >> 1 & 1 != 0
     }
 
-    /// Whether any of `count` cells from `cell` on was just unobscured.
+    /// Returns whether any of `count` cells from `cell` on was just unobscured.
     #[inline(always)]
     pub(crate) fn any_just_unobscured(&self, cell: u32, count: u32) -> bool {
         const { assert!(Class::JustUnobscured as u32 == 1, "the only class with the lower bit alone") }
@@ -232,7 +239,9 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         any >> self.record().class().shift & 1 != 0
     }
 
-    /// How many of some cells are empty, from the first on up to one that is not.
+    /// Returns how many of some cells are empty, counted from the first up to one that is not.
+    ///
+    /// Not inlined: called for few holes, from the middle of a hot loop.
     #[inline(never)]
     pub(crate) fn empties(&self, cells: Range<usize>) -> u32 {
         let (word, _) = self.record().class().words();
@@ -241,20 +250,20 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         cells.iter().take_while(|&&word| class.unsigned(word, word) == Class::Empty as u32).count() as u32
     }
 
-    /// The class that a key holds.
+    /// Returns the class that a key holds.
     #[inline(always)]
     pub(crate) fn class_of(&self, key: u32) -> u32 {
         key >> self.record().depth().bits
     }
 
-    /// The colour that the display shows at a cell, as a stored colour word; 0 outside of the map.
+    /// Returns the colour word of a cell, which is what a display shows; 0 outside of the map.
     #[inline(always)]
     #[must_use]
     pub fn colour(&self, cell: u32) -> u32 {
         self.colours(cell as usize..cell as usize + 1).next().unwrap_or_default()
     }
 
-    /// The colour words of some cells; nothing if they are not all in the map.
+    /// Returns the colour words of some cells; none if not all cells are in the map.
     #[inline(always)]
     pub(crate) fn colours(&self, cells: Range<usize>) -> impl ExactSizeIterator<Item = u32> {
         let field = self.record().colour();
@@ -263,7 +272,7 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         plane(upper).iter().zip(plane(lower)).map(move |(&upper, &lower)| extract.unsigned(upper, lower))
     }
 
-    /// The colour at column `x`, row `y` as 8-bit red, green and blue.
+    /// Returns the colour at column `x`, row `y` of the map as 8-bit red, green and blue, or `None` outside of the map.
     #[must_use]
     pub fn rgb888(&self, x: i32, y: i32) -> Option<[u8; 3]> {
         Some(self.record().colour_format().to_rgb888(self.colour(self.grid.cell(x, y)?)))

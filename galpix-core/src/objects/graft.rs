@@ -1,14 +1,14 @@
-//! Grafting: galpixels of an update that arrives late, and piece by piece, enter a map that has gone on moving.
+//! Grafting: galpixels of an update that arrives late, piece by piece, enter a map that has moved on.
 //!
-//! A galpixel of an update is exact at one frame, and reaches the map some frames later. Put where it was, the picture would
-//! jump back. So it is first taken through the frames that it has missed, by the same steps with the same thresholds as if
-//! it had been there, and then put where it is by now. An update that is some frames late thus gives the cells that one in
-//! time would have given, apart from what collides and what is filled on the way.
+//! A galpixel of an update is exact at one frame and reaches the map some frames later. Stored at its old place it
+//! would make the picture jump back. So it first makes the steps that it has missed, with the same thresholds as if it
+//! had been in the map, and is then stored in the cell that it has reached. An update that is some frames late thus
+//! gives the same cells as one in time, apart from what collides and what is filled in the meantime.
 //!
-//! What comes in is newer than what is there, and replaces it whatever its depth: the object in front may have left. Only
-//! what belongs to the same update is not replaced by what is farther. The tag tells: all galpixels of an update carry the
-//! number of the update, or as many low bits of it as the layout has. It moves with them, so that an update may take
-//! several frames to arrive. Without a tag the last one wins.
+//! A galpixel that comes in is newer than the one that is there, and replaces it whatever its depth, because the object
+//! in front may have left. Only a galpixel of the same update is not replaced by a farther one. The tag decides: all
+//! galpixels of an update carry the number of the update, or as many low bits of it as the layout has. The tag moves
+//! with them, so an update may take several frames to arrive. Without a tag the last galpixel wins.
 
 use crate::format::Format;
 use crate::format::record::{MAX_WORDS, Words};
@@ -18,32 +18,39 @@ use crate::frame::step::{advance, thresholds};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// What became of a galpixel that was grafted.
+/// The result of grafting a galpixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Grafted {
     /// It is in the map, in this cell.
     Put(u32),
-    /// A nearer one of the same update has its cell; of two that are equally near the first.
+    /// Its cell holds a nearer galpixel of the same update; of two equally near ones the first stays.
     Behind,
-    /// By now it has left the map, or it never was in it.
+    /// It has left the map by now, or was never in it.
     Lost,
     /// It is empty: nothing was known there.
     Empty,
 }
 
-/// Grafts the galpixel with these words, which was at `place`, a column and a row of the map (margin included), when the frame counter
-/// was `stamp`, into a map whose frame counter is `now`. Words beyond the layout's are ignored, missing ones are 0.
+/// The frames that a galpixel has missed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Delay {
+    /// The frame counter at which the galpixel is exact.
+    pub stamp: u32,
+    /// The frame counter of the map; not before `stamp`, modulo 2^32.
+    pub now: u32,
+    /// How the map rounds positions.
+    pub rounding: Rounding,
+}
+
+/// Grafts a galpixel into a map.
 ///
-/// *Cost:* a step for each frame between; the caller bounds how many these may be.
-pub fn graft<F: Format>(
-    map: &mut Galpixmap<'_, F>,
-    place: (i32, i32),
-    words: &[u32],
-    rounding: Rounding,
-    stamp: u32,
-    now: u32,
-) -> Grafted {
+/// `place` is its column and row at the frame of its stamp, margin included. Of `words`, those beyond the layout's are
+/// ignored, and missing ones are 0.
+///
+/// *Cost:* one step for each frame of the delay; the caller bounds their number.
+pub fn graft<F: Format>(map: &mut Galpixmap<'_, F>, place: (i32, i32), words: &[u32], delay: Delay) -> Grafted {
     let mut galpixel = [0; MAX_WORDS];
     for (to, &from) in galpixel.iter_mut().zip(words).take(map.record().words()) {
         *to = from;
@@ -51,7 +58,7 @@ pub fn graft<F: Format>(
     if map.record().class().unsigned(&galpixel) == Class::Empty as u32 {
         return Grafted::Empty;
     }
-    let (reached, _) = caught_up(map, place, &mut galpixel, rounding, stamp, now);
+    let (reached, _) = catch_up(map, place, &mut galpixel, delay);
     let Some(cell) = reached else { return Grafted::Lost };
     let Some(incumbent) = map.words_at(cell) else { return Grafted::Lost };
     let (record, tag) = (map.record(), map.record().tag());
@@ -63,19 +70,17 @@ pub fn graft<F: Format>(
     Grafted::Put(cell)
 }
 
-/// Takes a galpixel through the frames from `stamp` to `now`: the cell that it has then, or nothing if it has left the map or
-/// never was in it; and its fields that were clamped.
+/// Moves a galpixel through the frames that it has missed. Returns the cell that it reaches, `None` if it has left the
+/// map or was never in it; and how many of its fields were clamped.
 #[inline]
-pub(crate) fn caught_up<F: Format>(
+pub(crate) fn catch_up<F: Format>(
     map: &Galpixmap<'_, F>,
     (mut x, mut y): (i32, i32),
     galpixel: &mut Words,
-    rounding: Rounding,
-    stamp: u32,
-    now: u32,
+    Delay { stamp, now, rounding }: Delay,
 ) -> (Option<u32>, u32) {
     let (mut cell, mut frame, mut saturated) = (map.grid().cell(x, y), stamp, 0);
-    // Who has left the map does not come back: in the map it would have been lost too.
+    // A galpixel that has left the map does not come back: in the map it would have been lost too.
     while frame != now && cell.is_some() {
         let thresholds = thresholds(map.record(), rounding, frame);
         let step = advance::<true>(map.record(), &thresholds, galpixel);

@@ -1,4 +1,4 @@
-//! Renderings that have arrived and wait for a frame boundary, in memory that is bounded beforehand.
+//! Queue of renderings that wait for a frame boundary, in caller-provided buffers of fixed size.
 
 use heapless::Deque;
 use heapless::deque::DequeView;
@@ -8,25 +8,25 @@ use crate::format::Format;
 use crate::format::rounding::Rounding;
 use crate::objects::{Object, ObjectsTally, Refusal, Refusals, Stack, replace};
 
-/// What a queue takes, beside the number of renderings that may wait, which its type says.
+/// Limits of a queue. The number of renderings that may wait is that of its [`Places`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits {
-    /// Cells of one rendering's rectangle.
+    /// Most cells of one rendering's rectangle; at most `cells` in any case.
     pub cells_each: u32,
-    /// Cells of all renderings that wait.
+    /// Most cells of all renderings that wait.
     pub cells: u32,
-    /// Frames from a rendering's stamp until it enters.
+    /// Most frames from a rendering's stamp until it enters the map.
     pub age: u32,
 }
 
-/// The place of a rendering that waits.
+/// A rendering that waits, without its galpixels.
 #[derive(Clone, Copy, Debug)]
 pub struct Pending {
     tag: u32,
     layer: u32,
     stamp: u32,
-    /// Within the map, whose sides are at most 2^15.
+    /// 16 bits: within the map, whose sides are at most 2^15.
     place: [u16; 2],
     size: [u16; 2],
     cells: u32,
@@ -40,34 +40,35 @@ impl Pending {
     }
 }
 
-/// Places for `N` renderings that wait.
+/// Memory for `N` renderings that wait.
 pub type Places<const N: usize> = Deque<Pending, N>;
 
-/// Renderings that wait, first come, first served; their galpixels lie in a ring over a caller-provided buffer.
+/// A first-in, first-out queue of renderings. Their galpixels are in a ring over a caller-provided buffer.
 #[derive(Debug)]
 pub struct Queue<'q, F> {
     format: F,
     limits: Limits,
     pending: &'q mut DequeView<Pending>,
     ring: &'q mut [u32],
-    /// Where the first rendering's words begin, and how many words all have.
+    /// Index of the first rendering's first word.
     head: usize,
+    /// Words of all renderings that wait.
     used: usize,
-    /// Cells that still fit.
+    /// Cells that still fit in.
     left: u32,
     refusals: Refusals,
 }
 
 impl<'q, F: Format> Queue<'q, F> {
-    /// Words of memory for `cells` cells that wait.
+    /// Returns the words of memory that `cells` waiting cells need.
     #[must_use]
     pub fn words(format: F, cells: u32) -> usize {
         format.record().words().saturating_mul(cells as usize)
     }
 
-    /// An empty queue for maps of a layout and budget.
+    /// Creates an empty queue for maps of a format. `memory` holds the words of waiting renderings.
     ///
-    /// *Errors:* a layout without a tag lane, memory shorter than [`Self::words`] of `limits.cells`.
+    /// *Errors:* a layout without a tag, `memory` shorter than [`Self::words`] of `limits.cells`.
     pub fn new(
         format: F,
         limits: Limits,
@@ -94,14 +95,14 @@ impl<'q, F: Format> Queue<'q, F> {
         })
     }
 
-    /// Takes a new rendering of an object, to enter at one of the next frame boundaries. Its words are copied.
+    /// Appends a new rendering of an object, which enters its layer in a later [`Self::apply`]. Copies `words`.
     ///
-    /// *Errors:* see [`Refusal`]; a refused rendering is counted, and whatever was there stays.
+    /// *Errors:* see [`Refusal`]. A refused rendering is counted and changes nothing else.
     pub fn submit<'p>(&mut self, stack: &impl Stack<'p, F>, object: &Object, words: &[u32]) -> Result<(), Refusal> {
         let checked = self.checked(stack, object, words);
         match checked {
             Ok(pending) => {
-                // Not full, as was checked.
+                // `checked` has found a free place.
                 let _ = self.pending.push_back(pending);
                 self.write(words);
                 self.left -= pending.cells;
@@ -126,7 +127,7 @@ impl<'q, F: Format> Queue<'q, F> {
         if right > grid.width() || bottom > grid.height() {
             return Err(Refusal::Place { place, size });
         }
-        // Within the map, so that the product is at most its number of cells.
+        // Does not wrap: the rectangle is within the map.
         let cells = size[0].wrapping_mul(size[1]);
         let most = self.limits.cells_each.min(self.limits.cells);
         if cells > most {
@@ -153,11 +154,14 @@ impl<'q, F: Format> Queue<'q, F> {
         Ok(Pending { tag, layer, stamp, place, size, cells, words: need as u32 })
     }
 
-    /// Replaces the objects whose renderings wait, first come, first served, at a frame boundary. No rendering is begun that
-    /// would bring the cells of this call above `most`, but the first one: an object is replaced as a whole or not yet. So a
-    /// call handles at most `most` or [`Limits::cells_each`] cells, whichever is more, each with at most [`Limits::age`] steps.
+    /// Replaces objects by the renderings that wait, in their order, at a frame boundary.
     ///
-    /// A rendering that has become too old, or whose layer is gone, is dropped and counted, see [`Self::refusals`].
+    /// Stops before a rendering that would raise the cells of this call above `most`, unless it is the first one: an
+    /// object is replaced as a whole. A rendering that has become too old, or whose layer no longer exists, is dropped
+    /// and counted in [`Self::refusals`].
+    ///
+    /// *Cost:* at most `most` or [`Limits::cells_each`] cells, whichever is more, with at most [`Limits::age`] steps
+    /// each. For each rendering all cells of its layer are searched for the tag.
     pub fn apply<'p>(&mut self, stack: &mut impl Stack<'p, F>, rounding: Rounding, most: u32) -> ObjectsTally {
         let now = stack.now();
         let (mut tally, mut handled) = (ObjectsTally::default(), 0u32);
@@ -185,25 +189,19 @@ impl<'q, F: Format> Queue<'q, F> {
         tally
     }
 
-    /// Renderings that wait.
+    /// Returns the number of renderings that wait.
     #[must_use]
     pub fn waiting(&self) -> usize {
         self.pending.storage_len()
     }
 
-    /// Cells that the memory still has room for.
+    /// Returns the number of cells that still fit in.
     #[must_use]
     pub const fn left(&self) -> u32 {
         self.left
     }
 
-    /// The limits.
-    #[must_use]
-    pub const fn limits(&self) -> Limits {
-        self.limits
-    }
-
-    /// What was refused since the queue was made.
+    /// Returns the counts of refused renderings since the queue was created.
     #[must_use]
     pub const fn refusals(&self) -> Refusals {
         self.refusals
@@ -219,12 +217,12 @@ impl<'q, F: Format> Queue<'q, F> {
     }
 }
 
-/// A place in a ring of `len` words, of a number below twice that.
+/// Returns `place` modulo `len`, for a place below `2 * len`.
 const fn wrapped(place: usize, len: usize) -> usize {
     if place >= len { place - len } else { place }
 }
 
-/// `words` words of a ring from `head` on: up to its end, and from its beginning.
+/// Returns `words` words of a ring from `head` on in two parts: up to the end of the ring, and from its beginning.
 fn slices(ring: &[u32], head: usize, words: usize) -> (&[u32], &[u32]) {
     let above = ring.get(head..).unwrap_or_default();
     match above.get(..words) {

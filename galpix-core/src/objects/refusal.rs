@@ -1,66 +1,66 @@
-//! Why a rendering is not taken, and how often that was so.
+//! Reasons for which renderings are refused, and their counts.
 
 use core::fmt;
 
-/// Why a rendering was refused. Each sentence says the remedy.
+/// Reason for which a rendering was refused. Each message states the remedy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Refusal {
-    /// The tag does not fit the layout's tag lane.
+    /// The tag does not fit the layout's tag field.
     Tag {
         /// The tag.
         tag: u32,
-        /// Bits of the lane.
+        /// Bits of the field.
         bits: u32,
     },
-    /// There is no such layer, or its galpixels are stationary and delivered as a whole.
+    /// There is no such layer, or it is a stationary-source layer, which is delivered as a whole.
     Layer {
         /// The layer.
         layer: u32,
     },
-    /// Part of the rectangle lies outside of the map.
+    /// Part of the rectangle is outside of the map.
     Place {
         /// Its top left corner.
         place: [u32; 2],
         /// Its columns and rows.
         size: [u32; 2],
     },
-    /// More cells than one rendering may have.
+    /// The rectangle has more cells than one rendering may have.
     Cells {
         /// Cells of the rectangle.
         cells: u32,
         /// The limit.
         most: u32,
     },
-    /// The words are not those of the rectangle's cells.
+    /// The number of words is not that of the rectangle's cells.
     Words {
-        /// Words of the rectangle's cells.
+        /// Words for the rectangle's cells.
         need: usize,
         /// Words given.
         have: usize,
     },
-    /// The stamp lies further back than a rendering may be late; found when it was handed over or when its turn came.
+    /// The rendering is later than allowed, when it is submitted or when its turn comes.
     Age {
         /// Frames since the stamp.
         age: u32,
         /// The limit.
         most: u32,
     },
-    /// The stamp is a frame that is yet to come.
+    /// The stamp is a future frame.
     Ahead {
-        /// Frames until then.
+        /// Frames until the stamp.
         frames: u32,
     },
-    /// As many renderings wait as may.
+    /// The queue holds as many renderings as it can.
     Queue {
         /// The limit.
         most: usize,
     },
-    /// The memory for the galpixels of waiting renderings has too little left.
+    /// The memory for the galpixels of waiting renderings has too little space left.
     Memory {
         /// Cells of the rectangle.
         cells: u32,
-        /// Cells that still fit.
+        /// Cells that still fit in.
         left: u32,
     },
 }
@@ -98,7 +98,7 @@ impl fmt::Display for Refusal {
             }
             Self::Memory { cells, left } => write!(
                 f,
-                "{cells} cells do not fit into the {left} left in the queue's memory: apply some renderings, or lend more memory"
+                "{cells} cells do not fit into the {left} left in the queue's memory: apply some renderings, or provide more memory"
             ),
         }
     }
@@ -106,7 +106,7 @@ impl fmt::Display for Refusal {
 
 impl core::error::Error for Refusal {}
 
-/// How many renderings were refused, reason by reason. Counts stay at their highest number and do not wrap.
+/// Number of refused renderings for each reason. The counts saturate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Refusals {
@@ -131,7 +131,7 @@ pub struct Refusals {
 }
 
 impl Refusals {
-    /// All of them.
+    /// Returns the sum of all counts; saturates.
     #[must_use]
     pub fn total(&self) -> u32 {
         let Self { tag, layer, place, cells, words, age, ahead, queue, memory } = *self;

@@ -1,4 +1,4 @@
-//! The galpixels of a tag, found and made empty.
+//! Removal of all galpixels with a tag.
 
 use core::ops::Range;
 
@@ -7,11 +7,11 @@ use crate::format::record::MAX_WORDS;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// Cells that are looked at once: as many as a word has bits.
+/// Cells that are searched at once: as many as a word has bits.
 const RUN: u32 = 32;
 
-/// Makes every cell with this tag empty, whatever its class; how many there were. Their colours stay, as the display shows
-/// what was there until something else is put there.
+/// Makes every cell with this tag empty, whatever its class; returns their number. The cells keep their colours,
+/// because the display shows what was there until something else is stored there.
 pub(super) fn by_tag<F: Format>(map: &mut Galpixmap<'_, F>, tag: u32) -> u32 {
     let format = map.format();
     let record = format.record();
@@ -36,7 +36,7 @@ pub(super) fn by_tag<F: Format>(map: &mut Galpixmap<'_, F>, tag: u32) -> u32 {
     removed
 }
 
-/// A bit for each of at most [`RUN`] cells: whether it holds a galpixel or debris of this tag.
+/// Returns a bit for each of at most [`RUN`] cells: whether it holds a galpixel or debris of this tag.
 #[inline(always)]
 fn tagged<F: Format>(map: &Galpixmap<'_, F>, cells: Range<usize>, tag: u32) -> u32 {
     let record = map.record();

@@ -1,23 +1,23 @@
-//! What objects can be grafted into: one map or several layers.
+//! Targets of objects: one map or several layers.
 
 use crate::format::Format;
 use crate::frame::Controller;
 use crate::layers::Layers;
 use crate::map::Galpixmap;
 
-/// Maps of one grid that move together, and their frame counter.
+/// Maps over one grid that move together, and their frame counter.
 pub trait Stack<'p, F> {
-    /// The map that is shown.
+    /// Returns the map that is shown.
     fn shown(&self) -> &Galpixmap<'p, F>;
 
-    /// The frame counter.
+    /// Returns the frame counter.
     fn now(&self) -> u32;
 
-    /// Whether there is such a layer, and its galpixels move from cell to cell. Into an stationary layer nothing is grafted: it is
-    /// delivered as a whole.
+    /// Returns whether there is such a layer and its galpixels move from cell to cell. Objects cannot be grafted into a
+    /// stationary-source layer: it is delivered as a whole.
     fn takes(&self, layer: u32) -> bool;
 
-    /// The galpixels of a layer; nothing if there is no such layer.
+    /// Returns the galpixels of a layer, `None` if there is no such layer.
     fn layer(&mut self, layer: u32) -> Option<&mut Galpixmap<'p, F>>;
 }
 

@@ -1,4 +1,4 @@
-//! Rows of colour for a display, and what is pinned over them.
+//! Rows of colour for a display, and overlays that are pinned over them.
 
 pub mod overlay;
 pub mod scan_out;

@@ -1,12 +1,12 @@
-//! A pinned overlay: cells without motion and with priority over everything, as a head-up display has them.
+//! A pinned overlay: cells without motion that have priority over everything, as in a head-up display.
 //!
-//! An overlay is a surface of its own, never a part of a map: propagation, resolution, edges and fills do not know it, so it
-//! cannot smear, and nothing that it covers is lost. It takes part in scan-out alone: [`row`] shows an overlay's colour where
-//! something is pinned and the map's elsewhere. Without an overlay [`crate::output::scan_out::row`] is what it was.
+//! An overlay is a surface of its own, not a part of a map: propagation, resolution, edges and fills ignore it, so that
+//! it cannot smear, and what it covers is not lost. It is applied in scan-out: [`row`] returns the overlay's colour
+//! where something is pinned and the map's colour elsewhere.
 //!
-//! It may be smaller than the display (a status bar, a cross-hair) and lie anywhere on it, so that an embedded controller
-//! pays memory only for what it pins: a word a cell. With the feature `embedded-graphics` it is a `DrawTarget`: text, lines
-//! and pictures are drawn into it once and stay until they are removed.
+//! An overlay may be smaller than the display (a status bar, a cross-hair) and at any place of it. It needs a word of
+//! memory for each of its own cells. With the feature `embedded-graphics` it is a `DrawTarget`: text, lines and
+//! pictures are drawn into it once and stay until they are removed.
 
 use crate::error::SetupError;
 use crate::format::Format;
@@ -15,13 +15,13 @@ use crate::map::Galpixmap;
 use crate::map::grid::Grid;
 use crate::output::scan_out::{self, Over};
 
-/// Bits of a word that hold a pinned colour, above what is left.
+/// Bits of a word that hold a pinned colour, at the top of these bits. The two bits above mark cells without one.
 const COLOUR_BITS: u32 = 30;
 
-/// The word of a cell where nothing is pinned: both bits above the colour are set, as in the class of an empty cell.
+/// The word of a cell at which nothing is pinned.
 const UNPINNED: u32 = 3 << COLOUR_BITS;
 
-/// A surface pinned to the display: a word a cell, in a caller-provided buffer.
+/// Colours that are pinned to the display, a word for each cell in a caller-provided buffer.
 #[derive(Debug)]
 pub struct Overlay<'p> {
     grid: Grid<'p>,
@@ -32,14 +32,15 @@ pub struct Overlay<'p> {
 }
 
 impl<'p> Overlay<'p> {
-    /// Returns the words of memory that an overlay over `grid` needs: one a cell.
+    /// Returns the words of the buffer that an overlay over `grid` needs: one for each cell.
     #[must_use]
     pub const fn words(grid: &Grid<'_>) -> usize {
         grid.cells() as usize
     }
 
-    /// Lays an overlay of the size of a grid's display over `memory`, with nothing pinned, in the top left corner of the
-    /// picture. `colour` is that of the maps that it is shown over. Margin, if the grid has any, are never seen.
+    /// Makes an overlay of the size of a grid's display in the top left corner of the picture, with nothing pinned.
+    /// `colour` is the colour format of the maps that it is shown over. The margin of the grid, if it has any, is never
+    /// shown.
     ///
     /// *Errors:* memory shorter than [`Self::words`].
     pub fn new(grid: Grid<'p>, colour: Colour, memory: &'p mut [u32]) -> Result<Self, SetupError> {
@@ -49,51 +50,54 @@ impl<'p> Overlay<'p> {
         Ok(Self { grid, words, colour, left: 0, top: 0 })
     }
 
-    /// The same with its corner at column `left`, row `top` of the display. What lies beyond the display is not seen.
+    /// Moves the top left corner to column `left`, row `top` of the display. Cells beyond the display are not shown.
     #[must_use]
     pub fn at(self, left: u32, top: u32) -> Self {
         Self { left, top, ..self }
     }
 
-    /// Columns.
+    /// Returns the columns.
     #[must_use]
     pub const fn width(&self) -> u32 {
         self.grid.display_width()
     }
 
-    /// Rows.
+    /// Returns the rows.
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.grid.display_height()
     }
 
-    /// Pins a colour (8-bit red, green, blue) to column `x`, row `y` of the overlay; whether there is such a cell.
+    /// Pins a colour (8-bit red, green, blue) to column `x`, row `y` of the overlay. Returns whether there is such a
+    /// cell.
     pub fn pin(&mut self, x: u32, y: u32, rgb: [u8; 3]) -> bool {
         self.write(x, y, self.pinned_word(self.colour.from_rgb888(rgb)))
     }
 
-    /// Removes what is pinned to column `x`, row `y` of the overlay, so that the map is seen there; whether there is such a
-    /// cell.
+    /// Removes what is pinned to column `x`, row `y` of the overlay, so that the map is shown there. Returns whether
+    /// there is such a cell.
     pub fn unpin(&mut self, x: u32, y: u32) -> bool {
         self.write(x, y, UNPINNED)
     }
 
-    /// Removes everything.
+    /// Removes everything that is pinned.
     pub fn clear(&mut self) {
         self.words.fill(UNPINNED);
     }
 
-    /// The colour word that is pinned to column `x`, row `y` of the overlay.
+    /// Returns the colour word that is pinned to column `x`, row `y` of the overlay, if there is one.
     #[must_use]
     pub fn pinned(&self, x: u32, y: u32) -> Option<u32> {
         self.shown(*self.row(y).get(x as usize)?)
     }
 
+    /// Returns the overlay's word for a pinned colour word.
     #[inline(always)]
     const fn pinned_word(&self, colour: u32) -> u32 {
         colour << (COLOUR_BITS - self.colour.bits())
     }
 
+    /// Writes a word of the overlay; returns whether there is such a cell.
     fn write(&mut self, x: u32, y: u32, word: u32) -> bool {
         if x >= self.width() || y >= self.height() {
             return false;
@@ -107,13 +111,13 @@ impl<'p> Overlay<'p> {
         true
     }
 
-    /// Returns the colour of an overlay's word, if something is pinned there.
+    /// Returns the colour word that an overlay's word holds, if something is pinned there.
     #[inline(always)]
     const fn shown(&self, word: u32) -> Option<u32> {
         if word >= UNPINNED { None } else { Some(word >> (COLOUR_BITS - self.colour.bits())) }
     }
 
-    /// The words of row `y` of the overlay; nothing below it.
+    /// Returns the words of row `y` of the overlay; none below it.
     #[inline(always)]
     fn row(&self, y: u32) -> &[u32] {
         let grid = &self.grid;
@@ -125,7 +129,7 @@ impl<'p> Overlay<'p> {
     }
 }
 
-/// The colour words of row `y` of the display under an overlay, from left to right; nothing below the display.
+/// Returns the colour words of row `y` of the display under an overlay, from left to right; none below the display.
 pub fn row<'m, F: Format>(
     map: &'m Galpixmap<'_, F>,
     overlay: &'m Overlay<'_>,
@@ -137,7 +141,7 @@ pub fn row<'m, F: Format>(
 impl Over for &Overlay<'_> {
     #[inline(always)]
     fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32> {
-        // Above and left of the overlay the difference wraps to a row or column that it does not have.
+        // Above and to the left of the overlay the difference wraps to a row or column that the overlay does not have.
         let pinned = self.row(y.wrapping_sub(self.top));
         let first = x.wrapping_sub(self.left);
         scan_out::span(map, y, x, width).enumerate().map(move |(column, colour)| {
@@ -161,7 +165,7 @@ mod canvas {
     use super::Overlay;
     use crate::output::scan_out::PanelColour;
 
-    /// An overlay as a `DrawTarget` of pixels `C`: what is drawn is pinned; what is drawn outside is left out.
+    /// An overlay as a `DrawTarget` of pixels `C`. Pins what is drawn; ignores what is drawn outside of the overlay.
     #[derive(Debug)]
     pub struct Canvas<'o, 'p, C> {
         overlay: &'o mut Overlay<'p>,
@@ -169,8 +173,8 @@ mod canvas {
     }
 
     impl<'p> Overlay<'p> {
-        /// Returns the overlay as a `DrawTarget`. Pixels of another format than the overlay's are converted by 8-bit red,
-        /// green and blue.
+        /// Returns the overlay as a `DrawTarget`. Pixels of another colour format than the overlay's are converted by
+        /// 8-bit red, green and blue.
         pub const fn canvas<C: PanelColour>(&mut self) -> Canvas<'_, 'p, C> {
             Canvas { overlay: self, pixel: PhantomData }
         }
@@ -189,7 +193,7 @@ mod canvas {
         fn draw_iter<I: IntoIterator<Item = Pixel<C>>>(&mut self, pixels: I) -> Result<(), Self::Error> {
             for Pixel(point, pixel) in pixels {
                 let word = self.overlay.pinned_word(pixel.word_in(&self.overlay.colour));
-                // A negative place is no column or row of any grid.
+                // Negative coordinates wrap to columns or rows that no grid has.
                 self.overlay.write(point.x as u32, point.y as u32, word);
             }
             Ok(())

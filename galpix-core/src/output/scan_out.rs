@@ -1,25 +1,26 @@
-//! Stage 6: rows of colour for a display. No arithmetic.
+//! Stage 6: rows of colour for a display.
 //!
-//! [`row`] is the native path, for scanline engines and DMA: colour words of one row, in order. With the feature
-//! `embedded-graphics`, a [`View`] of the whole display or of a band of its rows is an `ImageDrawable`, and any
-//! `DrawTarget` is a display; it receives contiguous rows, never single pixels. What is pinned over the picture joins here,
-//! see [`crate::output::overlay`].
+//! [`row`] returns the colour words of a row in order, for scanline engines and DMA. With the feature
+//! `embedded-graphics`, the type `View` of the whole display or of a band of its rows is an `ImageDrawable`, and any
+//! `DrawTarget` is a display; it receives contiguous rows, never single pixels. Overlays are applied here, see
+//! [`crate::output::overlay`].
 
 use crate::format::Format;
 use crate::map::Galpixmap;
 
-/// The colour words of row `y` of the display (margin left out), from left to right; nothing below the display.
+/// Returns the colour words of row `y` of the display, without the margin, from left to right; none below the display.
 pub fn row<'m, F: Format>(map: &'m Galpixmap<'_, F>, y: u32) -> impl ExactSizeIterator<Item = u32> + 'm {
     span(map, y, 0, map.grid().display_width())
 }
 
-/// What lies over a map on the display: [`Bare`], or a reference to an [`crate::output::overlay::Overlay`].
+/// What is shown over a map: [`Bare`] for nothing, or a reference to an [`Overlay`](crate::overlay::Overlay).
 pub trait Over: Copy {
-    /// The colour words of `width` columns from `x` on of row `y` of the display; fewer where the display ends.
+    /// Returns the colour words of `width` columns from `x` on of row `y` of the display; fewer at the end of the
+    /// display.
     fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32>;
 }
 
-/// Nothing lies over the map.
+/// Nothing is shown over the map.
 #[derive(Clone, Copy, Debug)]
 pub struct Bare;
 
@@ -30,7 +31,7 @@ impl Over for Bare {
     }
 }
 
-/// The colour words of `width` columns from `x` on of row `y` of the display; fewer where the display ends.
+/// Returns the colour words of `width` columns from `x` on of row `y` of the display; fewer at the end of the display.
 pub(crate) fn span<'m, F: Format>(
     map: &'m Galpixmap<'_, F>,
     y: u32,
@@ -43,9 +44,10 @@ pub(crate) fn span<'m, F: Format>(
     let width = width.min(grid.display_width() - left) as usize;
     let start = if y < grid.display_height() { grid.row((y + grid.margin().top) as i32) } else { None };
     let plane = |word: usize| match (start, map.planes().get(word)) {
-        (Some(start), Some(plane)) => {
-            plane.get((start + grid.margin().left + left) as usize..).and_then(|rest| rest.get(..width)).unwrap_or(&[])
-        }
+        (Some(start), Some(plane)) => plane
+            .get((start + grid.margin().left + left) as usize..)
+            .and_then(|words| words.get(..width))
+            .unwrap_or(&[]),
         _ => &[],
     };
     let ((upper, lower), extract) = (field.words(), field.extract());
@@ -73,7 +75,7 @@ mod panel {
 
     use super::{Bare, Over};
 
-    /// A pixel of a panel whose stored form is a colour format.
+    /// A pixel type of `embedded-graphics` that corresponds to a colour format.
     pub trait PanelColour: PixelColor {
         /// The colour format.
         const FORMAT: Colour;
@@ -84,14 +86,14 @@ mod panel {
         /// Returns the colour word of [`Self::FORMAT`].
         fn word(self) -> u32;
 
-        /// Returns the pixel of a colour word of any format.
+        /// Converts a colour word of any format; by 8-bit red, green and blue if it is not [`Self::FORMAT`].
         #[inline(always)]
         fn of(format: &Colour, word: u32) -> Self {
             let same = *format == Self::FORMAT;
             Self::of_word(if same { word } else { Self::FORMAT.from_rgb888(format.to_rgb888(word)) })
         }
 
-        /// Returns the colour word of any format.
+        /// Converts to a colour word of any format; by 8-bit red, green and blue if it is not [`Self::FORMAT`].
         #[inline(always)]
         fn word_in(self, format: &Colour) -> u32 {
             let same = *format == Self::FORMAT;
@@ -124,9 +126,9 @@ mod panel {
         Gray4: GRAY4, RawU4, u8;
     }
 
-    /// The display's part of a map, or a band of its rows, and what lies over it.
+    /// The part of a map that a display shows, or a band of its rows, and what is shown over it.
     ///
-    /// `C` is the panel's pixel; maps of another colour format are converted by 8-bit red, green and blue.
+    /// `C` is the pixel type of the panel. Maps of another colour format are converted by 8-bit red, green and blue.
     #[derive(Debug)]
     pub struct View<'m, 'p, F, C, O = Bare> {
         map: &'m Galpixmap<'p, F>,
@@ -137,20 +139,21 @@ mod panel {
     }
 
     impl<'m, 'p, F: Format, C: PanelColour> View<'m, 'p, F, C> {
-        /// The whole display.
+        /// Makes a view of the whole display.
         #[must_use]
         pub fn new(map: &'m Galpixmap<'p, F>) -> Self {
             Self { map, over: Bare, pixel: PhantomData, top: 0, rows: map.grid().display_height() }
         }
 
-        /// At most `rows` rows of the display from row `top` on; fewer at its end. Draw it at `(0, top)`.
+        /// Makes a view of at most `rows` rows of the display from row `top` on; fewer at its end. Draw it at `(0,
+        /// top)`.
         #[must_use]
         pub fn band(map: &'m Galpixmap<'p, F>, top: u32, rows: u32) -> Self {
             let top = top.min(map.grid().display_height());
             Self { map, over: Bare, pixel: PhantomData, top, rows: rows.min(map.grid().display_height() - top) }
         }
 
-        /// Returns the same under an overlay.
+        /// Returns the view under an overlay.
         #[must_use]
         pub fn under<O: Over>(self, over: O) -> View<'m, 'p, F, C, O> {
             View { map: self.map, over, pixel: PhantomData, top: self.top, rows: self.rows }
@@ -178,12 +181,12 @@ mod panel {
             let inside = area.intersection(&Rectangle::new(Point::zero(), self.size()));
             let (left, width) = (inside.top_left.x.max(0) as u32, inside.size.width);
             let first = self.top + inside.top_left.y.max(0) as u32;
-            // Drawn from the target's origin on, as the trait asks.
+            // The trait requires the area to be drawn at the target's origin.
             let place = Rectangle::new(inside.top_left - area.top_left, inside.size);
             let format = *self.map.record().colour_format();
             let row = |y: u32| self.over.span(self.map, y, left, width).map(move |word| C::of(&format, word));
             if inside.size.height == 1 {
-                // A row alone goes out without the bookkeeping of several.
+                // A single row needs no iterator over rows.
                 return target.fill_contiguous(&place, row(first));
             }
             target.fill_contiguous(&place, (first..first + inside.size.height).flat_map(row))

@@ -3,13 +3,13 @@ extern crate std;
 use std::println;
 use std::vec::Vec;
 
-use super::{Bound, Motion, times};
+use super::{Bound, Motion, times, times_by_limbs};
 use crate::format::budget::Component;
 use crate::format::record::Scale;
 use crate::format::rounding::Rounding;
 use crate::frame::step::{clamp_velocity, snap, step_position, step_velocity};
 
-/// Bits of acceleration and of velocity that saturate soon.
+/// Velocities and accelerations of so few bits that velocities saturate soon.
 const ACCELERATED: Component =
     Component { position_frac: 1, velocity_int: 2, velocity_frac: 3, acceleration_int: 1, acceleration_frac: 2 };
 const SLIDE: Component =
@@ -31,7 +31,7 @@ fn motions(component: Component) -> Vec<Motion> {
     motions
 }
 
-/// Cells moved after each of `frames` frames, by the kernels of propagation.
+/// Returns the cells moved after each of `frames` frames, by the kernels of propagation.
 fn path(scale: &Scale, of: Motion, rounding: Rounding, phase: u32, frames: u32) -> Vec<i32> {
     let scale = Scale { acceleration_up: 0, ..*scale };
     let (mut position, mut v) = (of.offset, of.velocity);
@@ -45,8 +45,8 @@ fn path(scale: &Scale, of: Motion, rounding: Rounding, phase: u32, frames: u32) 
         .collect()
 }
 
-/// Checks that no pair of motions ever gets farther apart than its bound, by any rounding from any frame on: of how many pairs
-/// it is reached, and all of them.
+/// Checks that no pair of motions ever gets farther apart than its bound, with any rounding from any frame on. Returns
+/// the number of pairs that reach their bound, and of all pairs.
 fn check(component: Component, frames: u32) -> [usize; 2] {
     let scale = Scale::new(component, component.position_frac);
     let bound = Bound::new(&scale, component.has_acceleration(), frames);
@@ -72,7 +72,7 @@ fn check(component: Component, frames: u32) -> [usize; 2] {
                 .unwrap_or(0);
             assert!(farthest <= most, "{one:?} gets {farthest} ahead of {other:?} in {frames}, bound {most}");
             reached += usize::from(farthest.max(0) == most);
-            // The snap to cells is not known, and rounding only as far as it goes either way.
+            // The bound does not know the snap to cells, and knows only the most that rounding does either way.
             let rounded = scale.down > u32::from(!component.has_acceleration());
             let unknown = 1 + if rounded { (2 * frames as i32) >> scale.position_frac } else { 0 };
             assert!(most <= farthest.max(0) + unknown, "{one:?} gets {farthest} ahead of {other:?}, bound {most}");
@@ -117,10 +117,13 @@ fn sums_are_those_of_single_steps() {
 
 #[test]
 fn products_are_products() {
-    let by_shifts = |x: i64, n: u32| (0..8).map(|bit| if n >> bit & 1 != 0 { x << bit } else { 0 }).sum::<i64>();
-    for x in [-(1 << 40), -77, 0, 1, 12_345_678_901] {
+    let by_shifts = |x: i64, n: u32| {
+        let shifted = (0..8).map(|bit| if n >> bit & 1 != 0 { x << bit } else { 0 });
+        shifted.fold(0, i64::wrapping_add)
+    };
+    for x in [i64::MIN, -(1 << 40), -(1 << 32) - 1, -65_536, -77, 0, 1, 65_535, u32::MAX.into(), 12_345_678_901] {
         for n in [0, 1, 2, 3, 254, 255] {
-            assert_eq!(times(x, n), by_shifts(x, n));
+            assert_eq!([times(x, n), times_by_limbs(x, n)], [by_shifts(x, n); 2]);
         }
     }
 }
@@ -132,12 +135,12 @@ fn what_differs_by_less_than_the_limits_stays_together() {
         for frames in 1..=255 {
             let bound = Bound::new(&scale, component.has_acceleration(), frames);
             let [velocity, acceleration] = bound.together();
-            // As far as both limits in the worst way.
+            // The worst case of both limits.
             let one = Motion { offset: 0, velocity, acceleration: acceleration << scale.acceleration_up };
             assert!(!bound.parts(&bound.between(one, Motion::default())), "{frames} {one:?}");
             let back = Motion { velocity: -one.velocity, acceleration: -one.acceleration, ..one };
             assert!(!bound.parts(&bound.between(Motion::default(), back)));
-            // And not far within them: eight times as much gets ahead.
+            // The limits are not far too small: eight times the velocity gets ahead.
             if velocity > 0 {
                 let faster = Motion { velocity: 8 * velocity, ..Motion::default() };
                 assert!(bound.parts(&bound.between(faster, Motion::default())));

@@ -1,10 +1,12 @@
-//! The sweep for processors without vector registers, where a buffer between the two stages costs more than it saves.
+//! Propagation and resolution for processors without vector registers, where a buffer between the two stages costs more
+//! than it saves.
 //!
-//! Neighbours mostly move alike. A **stretch** is a run of galpixels and debris with one displacement, whose fields do not
-//! stray and whose new cells are still empty. It is taken straight from the old map into the new one, part by part: a loop
-//! over its cells for x, one for y, one for class and depth, so that what a loop needs stays in registers; one loop for all
-//! three where class or depth share a word with x or y. A loop that meets a galpixel of another kind ends the stretch there. All else
-//! goes galpixel by galpixel.
+//! Neighbours mostly move alike. A **run** is a sequence of adjacent galpixels and debris with the same displacement,
+//! whose fields do not overflow and whose new cells are still empty. A run is stepped directly from the old map into
+//! the new one, part by part: a loop over its cells for x, one for y, and one for class and depth, so that everything a
+//! loop needs stays in registers. If class or depth share a word with x or y, a single loop steps all three. A loop
+//! that meets a galpixel that does not belong to the run ends the run there. All other galpixels are stepped one by
+//! one.
 
 pub(crate) mod edge;
 
@@ -14,12 +16,12 @@ use crate::format::Format;
 use crate::format::record::{MAX_WORDS, Record};
 use crate::format::rounding::Rounding;
 use crate::frame::resolve::{self, NO_WINNER};
-use crate::frame::step::{advance, depth_within, plane_along, step_luminosity, thresholds};
+use crate::frame::step::{advance, step_depth_within, step_luminosity, step_plane_to, thresholds};
 use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// [`super::sweep`] for processors without vector registers: the same arguments, the same bits.
+/// Propagates `front` by one frame into `back` and resolves collisions, see [`crate::frame::resolve::sweep`].
 pub fn sweep<F: Format>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
@@ -34,13 +36,14 @@ pub fn sweep<F: Format>(
     let mut tally = Tally::default();
     let thresholds = thresholds(front.record(), rounding, frame);
     clear(back, winners, 0..grid.cells() as usize);
+    let mut target = Target { back, winners, tally: &mut tally };
     for y in 0..grid.height() as i32 {
-        sweep_row(front, y, &thresholds, back, winners, &mut tally);
+        sweep_row(front, y, &thresholds, &mut target);
     }
     tally
 }
 
-/// Makes some cells empty. Their other fields stay what they were, unless they share the class's word.
+/// Makes some cells empty. Their other fields are not changed, except for those in the word of the class.
 pub(crate) fn clear<F: Format>(back: &mut Galpixmap<'_, F>, winners: &mut [u32], cells: Range<usize>) {
     let record = *back.record();
     let (word, _) = record.class().words();
@@ -54,63 +57,75 @@ pub(crate) fn clear<F: Format>(back: &mut Galpixmap<'_, F>, winners: &mut [u32],
     }
 }
 
-/// Takes row `y` of `front` to where its galpixels go in `back`, whose rows may lie elsewhere.
+/// What a sweep writes. The rows of `back` may have other first cells than those of the old map.
+pub(crate) struct Target<'t, 'p, F> {
+    pub back: &'t mut Galpixmap<'p, F>,
+    pub winners: &'t mut [u32],
+    pub tally: &'t mut Tally,
+}
+
+/// A cell of the old map.
+#[derive(Clone, Copy)]
+struct Source {
+    cell: u32,
+    x: u32,
+    y: i32,
+}
+
+/// Propagates row `y` of `front` into `target` and resolves collisions.
 pub(crate) fn sweep_row<F: Format>(
     front: &Galpixmap<'_, F>,
     y: i32,
     thresholds: &[i32; 3],
-    back: &mut Galpixmap<'_, F>,
-    winners: &mut [u32],
-    tally: &mut Tally,
+    target: &mut Target<'_, '_, F>,
 ) {
     let width = front.grid().width();
     let Some(start) = front.grid().row(y) else { return };
     let mut x = 0;
     while x < width {
-        let source = start + x;
-        let class = front.class(source);
+        let source = Source { cell: start + x, x, y };
+        let class = front.class(source.cell);
         if class == Class::Empty {
             x += 1;
             continue;
         }
-        let mut taken = 0;
-        // What was just unobscured becomes debris in this step: it is no common case.
+        let mut stepped = 0;
+        // Just-unobscured becomes debris in this step; it is rare, and runs do not support it.
         if class != Class::JustUnobscured
-            && let Some(stretch) = stretch(front, source, x, y, thresholds, back)
+            && let Some(run) = run_at(front, source, thresholds, target.back)
         {
-            taken = take_stretch(front, &stretch, thresholds, back, winners).unwrap_or(0);
-            tally.moved += taken;
+            stepped = step_run(front, &run, thresholds, target).unwrap_or(0);
+            target.tally.moved += stepped;
         }
-        if taken == 0 {
-            take_one(front, source, x, y, thresholds, back, winners, tally);
-            taken = 1;
+        if stepped == 0 {
+            step_one(front, source, thresholds, target);
+            stepped = 1;
         }
-        x += taken;
+        x += stepped;
     }
 }
 
-/// Neighbours that go the same way, at most so many as stay in their row and in the map.
-struct Stretch {
-    /// The first cell that they come from.
+/// A sequence of adjacent cells of a row that may have the same displacement.
+struct Run {
+    /// The first cell, in the old map.
     source: u32,
-    /// The first cell that they go to.
+    /// The cell of the new map at which the galpixel of the first cell arrives.
     cell: u32,
-    /// How many there are at most.
+    /// The largest number of cells, limited by the ends of the rows in the old and in the new map.
     most: u32,
-    /// The lowest positions in x and y that are in the cell to which they go.
+    /// The lowest positions in x and y of a galpixel with the run's displacement, relative to its own cell.
     lowest: [i32; 2],
 }
 
-/// The stretch that may begin with the galpixel at `source`; nothing if that leaves the map.
+/// Returns the run that may begin with the galpixel of a cell; `None` if it leaves the map.
 #[inline(always)]
-fn stretch<F: Format>(
+fn run_at<F: Format>(
     front: &Galpixmap<'_, F>,
-    source: u32,
-    x: u32,
-    y: i32,
+    source: Source,
     thresholds: &[i32; 3],
     back: &Galpixmap<'_, F>,
-) -> Option<Stretch> {
+) -> Option<Run> {
+    let Source { cell: source, x, y } = source;
     let width = front.grid().width();
     let step = advance::<false>(front.record(), thresholds, &mut front.words_at(source)?);
     let moved = [step.dx, step.dy];
@@ -121,10 +136,11 @@ fn stretch<F: Format>(
         (moved[component] << frac) - ((1 << frac) >> 1)
     };
     let lowest = [lowest(0), lowest(1)];
-    Some(Stretch { source, cell, most: width - x.max(to_x as u32), lowest })
+    Some(Run { source, cell, most: width - x.max(to_x as u32), lowest })
 }
 
-/// The block for each word, one after the other: what a record does not have falls away.
+/// Repeats a block for each word, with its number as a constant, so that blocks of words that a record lacks are
+/// removed at compile time.
 macro_rules! each_word {
     ($word:ident => $block:block) => {
         const { assert!(MAX_WORDS == 8) }
@@ -138,39 +154,42 @@ macro_rules! each_word {
     };
 }
 
-/// What a loop over the cells of a stretch takes along.
+/// The part that a loop over the cells of a run steps: offset, velocity and acceleration in x.
 const X: usize = 0;
-/// See [`X`].
+/// Offset, velocity and acceleration in y.
 const Y: usize = 1;
-/// See [`X`].
+/// Class, and depth with its velocity and acceleration.
 const DEPTH: usize = 2;
-/// See [`X`].
+/// All three parts.
 const ALL: usize = 3;
 
-/// Takes the words of a part of what moves from where a stretch is to where it goes, a step further: of at most `count`
-/// galpixels, up to the first that goes another way, is empty or just unobscured, or goes to a cell that is taken. Returns how many.
+/// Steps a part of at most `count` galpixels of a run from the old map into the new one. Stops at the first one that
+/// has another displacement, overflows, is empty or just unobscured, or arrives at an occupied cell. Returns how many
+/// were stepped.
+///
+/// Not inlined: each part gets all registers for its loop.
 #[inline(never)]
-fn pass<F: Format, const PART: usize>(
+fn step_part<F: Format, const PART: usize>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
-    stretch: &Stretch,
+    run: &Run,
     count: u32,
     thresholds: &[i32; 3],
 ) -> u32 {
     let record = *front.record();
-    let set = words_of(&record, PART);
+    let stepped = words_of(&record, PART);
     let (class_word, _) = record.class().words();
-    // What x has written, y takes on from there.
+    // Words that x and y share: y continues with what x has written.
     let written = if PART == Y { words_of(&record, X) } else { 0 };
-    let looks = PART == X || PART == ALL;
-    let looked_at = set | if looks { 1 << class_word } else { 0 };
-    let from = stretch.source as usize..(stretch.source + count) as usize;
-    let to = stretch.cell as usize..(stretch.cell + count) as usize;
+    let checks_class = PART == X || PART == ALL;
+    let accessed = stepped | if checks_class { 1 << class_word } else { 0 };
+    let from = run.source as usize..(run.source + count) as usize;
+    let to = run.cell as usize..(run.cell + count) as usize;
     let mut sources: [&[u32]; MAX_WORDS] = [&[]; MAX_WORDS];
     let mut targets: [&mut [u32]; MAX_WORDS] = Default::default();
     let count = from.len();
     for (word, (source, target)) in front.planes().iter().zip(back.planes_mut()).enumerate() {
-        if looked_at >> word & 1 != 0 {
+        if accessed >> word & 1 != 0 {
             match (source.get(from.clone()), target.get_mut(to.clone())) {
                 (Some(source), Some(target)) if target.len() == count => {
                     (sources[word], targets[word]) = (source, target)
@@ -179,38 +198,38 @@ fn pass<F: Format, const PART: usize>(
             }
         }
     }
-    let (thresholds, lowest) = (*thresholds, stretch.lowest);
+    let (thresholds, lowest) = (*thresholds, run.lowest);
     let mut lane = 0;
     while lane < count {
         let mut words = [0; MAX_WORDS];
         each_word!(word => {
-            if set >> word & 1 != 0 {
+            if stepped >> word & 1 != 0 {
                 words[word] = if written >> word & 1 != 0 { at(targets[word], lane) } else { at(sources[word], lane) };
             }
         });
-        if looks {
-            // The lower bit of the class: what was just unobscured and what is empty has it. Of what a sweep puts into
-            // cells nothing has, so that it tells a cell that is empty.
-            let open = at(targets[class_word], lane) & !at(sources[class_word], lane);
-            if open >> record.class().shift & 1 == 0 {
+        if checks_class {
+            // The lower bit of the class is set if a cell is empty or just unobscured. A sweep stores nothing that is
+            // just unobscured, so that in the new map the bit marks the empty cells.
+            let free = at(targets[class_word], lane) & !at(sources[class_word], lane);
+            if free >> record.class().shift & 1 == 0 {
                 break;
             }
         }
-        let mut along = true;
+        let mut belongs = true;
         if (PART == X || PART == ALL) && record.layout().velocity {
-            along = along && plane_along::<0>(&record, thresholds[0], lowest[0], &mut words);
+            belongs = belongs && step_plane_to::<0>(&record, thresholds[0], lowest[0], &mut words);
         }
         if (PART == Y || PART == ALL) && record.layout().velocity {
-            along = along && plane_along::<1>(&record, thresholds[1], lowest[1], &mut words);
+            belongs = belongs && step_plane_to::<1>(&record, thresholds[1], lowest[1], &mut words);
         }
         if (PART == DEPTH || PART == ALL) && record.layout().depth_motion {
-            along = along && depth_within(&record, thresholds[2], &mut words);
+            belongs = belongs && step_depth_within(&record, thresholds[2], &mut words);
         }
-        if !along {
+        if !belongs {
             break;
         }
         each_word!(word => {
-            if set >> word & 1 != 0
+            if stepped >> word & 1 != 0
                 && let Some(target) = targets[word].get_mut(lane)
             {
                 *target = words[word];
@@ -221,13 +240,16 @@ fn pass<F: Format, const PART: usize>(
     lane as u32
 }
 
-/// A word of a slice that is long enough. Not every level of optimisation sees that it is, and an index would leave a panic.
+/// Returns a word of a slice that is long enough.
+///
+/// With an index instead of `get`, rustc 1.95 for thumbv6m and thumbv7m leaves bounds checks and panics in the
+/// [`step_part`] of [`crate::Dynamic`].
 #[inline(always)]
 fn at(words: &[u32], lane: usize) -> u32 {
     words.get(lane).copied().unwrap_or_default()
 }
 
-/// The words of all that moves in a part. The class goes with the depth.
+/// Returns the set of words with the fields of a part, as a bit for each word.
 #[inline(always)]
 fn words_of(record: &Record, part: usize) -> u32 {
     let moving = |component: usize| record.velocity(component).word_set() | record.acceleration(component).word_set();
@@ -243,29 +265,29 @@ fn words_of(record: &Record, part: usize) -> u32 {
     }
 }
 
-/// Takes the galpixels of a stretch: how many they are.
-fn take_stretch<F: Format>(
+/// Steps the galpixels of a run; returns how many belong to it.
+fn step_run<F: Format>(
     front: &Galpixmap<'_, F>,
-    stretch: &Stretch,
+    run: &Run,
     thresholds: &[i32; 3],
-    back: &mut Galpixmap<'_, F>,
-    winners: &mut [u32],
+    target: &mut Target<'_, '_, F>,
 ) -> Option<u32> {
     let record = front.record();
-    let mut count = stretch.most;
+    let Target { back, winners, .. } = target;
+    let mut count = run.most;
     if (words_of(record, X) | words_of(record, Y)) & words_of(record, DEPTH) == 0 {
-        // Until the class is written a cell is empty, whatever its other fields hold.
-        count = pass::<F, X>(front, back, stretch, count, thresholds);
-        count = pass::<F, Y>(front, back, stretch, count, thresholds);
-        count = pass::<F, DEPTH>(front, back, stretch, count, thresholds);
+        // A new cell stays empty until its class is written, so that a later part may still shorten the run.
+        count = step_part::<F, X>(front, back, run, count, thresholds);
+        count = step_part::<F, Y>(front, back, run, count, thresholds);
+        count = step_part::<F, DEPTH>(front, back, run, count, thresholds);
     } else {
-        count = pass::<F, ALL>(front, back, stretch, count, thresholds);
+        count = step_part::<F, ALL>(front, back, run, count, thresholds);
     }
-    let from = stretch.source as usize..(stretch.source + count) as usize;
-    let to = stretch.cell as usize..(stretch.cell + count) as usize;
-    let rest = !words_of(record, ALL);
+    let from = run.source as usize..(run.source + count) as usize;
+    let to = run.cell as usize..(run.cell + count) as usize;
+    let unchanged = !words_of(record, ALL);
     for (word, (source, target)) in front.planes().iter().zip(back.planes_mut()).enumerate().take(record.words()) {
-        if rest >> word & 1 != 0 {
+        if unchanged >> word & 1 != 0 {
             target.get_mut(to.clone())?.copy_from_slice(source.get(from.clone())?);
         }
     }
@@ -277,13 +299,13 @@ fn take_stretch<F: Format>(
         }
     }
     if let Some(winners) = winners.get_mut(to) {
-        let (fours, rest) = winners.as_chunks_mut::<4>();
-        let mut source = stretch.source;
+        let (fours, remainder) = winners.as_chunks_mut::<4>();
+        let mut source = run.source;
         for four in fours {
             *four = [source, source + 1, source + 2, source + 3];
             source += 4;
         }
-        for winner in rest {
+        for winner in remainder {
             *winner = source;
             source += 1;
         }
@@ -291,19 +313,16 @@ fn take_stretch<F: Format>(
     Some(count)
 }
 
-/// Takes one galpixel or piece of debris, whatever it is and wherever it goes.
+/// Steps the galpixel or debris of any cell and resolves a collision.
 #[inline(never)]
-#[allow(clippy::too_many_arguments)]
-fn take_one<F: Format>(
+fn step_one<F: Format>(
     front: &Galpixmap<'_, F>,
-    source: u32,
-    x: u32,
-    y: i32,
+    source: Source,
     thresholds: &[i32; 3],
-    back: &mut Galpixmap<'_, F>,
-    winners: &mut [u32],
-    tally: &mut Tally,
+    target: &mut Target<'_, '_, F>,
 ) {
+    let Source { cell: source, x, y } = source;
+    let Target { back, winners, tally } = target;
     let Some(mut words) = front.words_at(source) else { return };
     let step = advance::<true>(front.record(), thresholds, &mut words);
     tally.moved += 1;
@@ -314,7 +333,7 @@ fn take_one<F: Format>(
     };
     let Some(incumbent) = back.key_at(cell) else { return };
     tally.collided += (back.class_of(incumbent) != Class::Empty as u32) as u32;
-    // In raster order the incumbent has the smaller source: of equal keys it stays.
+    // In raster order the incumbent has the smaller source, so that it wins if the keys are equal.
     if resolve::key(back.record(), &words) < incumbent {
         back.put(cell, &words);
         if let Some(winner) = winners.get_mut(cell as usize) {

@@ -1,15 +1,14 @@
-//! The edge map by runs of neighbours. Its work does not depend on the picture, so that it serves the constant-time step too.
+//! The edge map for processors with vector registers, by runs of cells. Its instructions do not depend on the picture,
+//! so that the constant-time step uses it, too.
 
 use crate::format::Format;
 use crate::frame::edge::{laplacian, set};
 use crate::map::Galpixmap;
 
-/// Neighbours that are looked at once.
+/// Cells of a run.
 const RUN: u32 = 32;
 
-/// Marks the edges of a map; returns how many cells are on an edge.
-///
-/// `threshold` is in units of the depth's last bit. `edges` must have [`words`] words; further cells are not marked.
+/// Marks the cells of a map that are on an edge, see [`crate::frame::edge::mark`].
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
     edges.fill(0);
     let grid = *front.grid();
@@ -21,7 +20,7 @@ pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &
         let down = rows.peek().copied().unwrap_or(row);
         let mut x = 0;
         while x < grid.width() {
-            // The first and the last column lack a neighbour; between them, runs of cells.
+            // In the first and the last column the cell is its own neighbour; between them are runs of cells.
             let last = grid.width() - 1;
             let cells = if x == 0 || x == last { 1 } else { (last - x).min(RUN) };
             let (left, right) = (x.saturating_sub(1), (x + 1).min(last));
@@ -35,8 +34,9 @@ pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &
     count
 }
 
-/// The flags of up to [`RUN`] cells, the first in the lowest bit, and how many are set. `places`: the first cell, and its neighbours to the
-/// left, right, above and below.
+/// Returns the flags of up to [`RUN`] cells, the first one in the lowest bit, and how many are set.
+///
+/// `places` are the first cell and its neighbours to the left, to the right, above and below.
 #[inline(always)]
 fn flags<F: Format>(front: &Galpixmap<'_, F>, threshold: i32, cells: u32, places: [u32; 5]) -> (u32, u32) {
     let mut keys = [[0; RUN as usize]; 5];
@@ -50,7 +50,7 @@ fn flags<F: Format>(front: &Galpixmap<'_, F>, threshold: i32, cells: u32, places
     for lane in 0..RUN {
         let mask = (lane < cells) as u32;
         let lane = lane as usize;
-        // Class 0 is a galpixel, and the class stands above the depth.
+        // The class of a galpixel is 0, and the class is above the depth.
         let others = front.class_of(z0[lane] | left[lane] | right[lane] | up[lane] | down[lane]);
         let [z0, left, right, up, down] = [z0, left, right, up, down].map(|keys| keys[lane] as i32);
         let source = laplacian(z0, left, right, up, down);

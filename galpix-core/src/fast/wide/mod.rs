@@ -1,14 +1,14 @@
-//! Stages 1 and 2 fused: propagates a whole map and resolves it, in raster order, with no buffer between.
+//! Propagation and resolution for processors with vector registers: both stages fused, in raster order, without a
+//! buffer between them.
 //!
-//! Neighbours mostly move alike. A row is taken in chunks of 64 cells; all of a chunk's galpixels are moved at
-//! once, and then each run of neighbours with equal displacements is stored as a whole, wherever it goes. The result is
-//! what [`crate::frame::step::arrivals`] and [`crate::frame::resolve::settle`] define, bit by bit: in raster order an incumbent has
-//! the smaller source, so that comparing keys alone decides.
+//! Neighbours mostly move alike. The chunks of 64 cells of a row are stepped as a whole, and then each run of adjacent
+//! cells with equal displacements is stored as a whole. In raster order an incumbent has the smaller source, so that
+//! comparing the keys resolves collisions.
 //!
-//! A chunk that is all empty is skipped, and one that holds only what neither moves nor changes is stored as it is: its step
-//! would give the same words. The first galpixel of a chunk mostly tells that it is neither.
+//! A chunk of empty cells is skipped. A chunk that a step does not change is stored without a step. Most other chunks
+//! fail these tests at their first galpixel.
 //!
-//! Rows of the new map are cleared just before they are first needed, while the old map's neighbourhood is in the cache.
+//! Rows of the new map are cleared just before the first galpixel arrives, while the rows around are in the cache.
 
 pub(crate) mod edge;
 mod planes;
@@ -25,52 +25,53 @@ use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 use planes::Planes;
 
-/// Cells that are moved at once: enough for vector code, few enough to stay in the first cache.
+/// Cells of a chunk: enough for vector code, and few enough for the first-level cache.
 const CHUNK: usize = 64;
 
-/// Empty cells go a way of their own, and no galpixel does: no budget has velocities of 2^30.
-const NOWHERE: u32 = 30;
+/// The bit of the displacement in x that is inverted for empty cells, so that they form runs of their own. No galpixel
+/// moves that far.
+const EMPTY_BIT: u32 = 30;
 
-/// Shorter runs go galpixel by galpixel.
+/// Shorter runs are stored galpixel by galpixel.
 const SHORT_RUN: usize = 4;
 
 /// Rows that are cleared at once.
 const ROWS_AHEAD: i32 = 4;
 
-/// The new map while it is filled.
+/// The new map while it is made.
 struct Target<'t, 'p, F> {
     back: &'t mut Galpixmap<'p, F>,
     winners: &'t mut [u32],
-    /// Cells before this one are cleared or hold arrivals.
+    /// The first cell that is not yet cleared.
     cleared: u32,
-    /// The bits that are 0 in what neither moves nor changes.
+    /// The bits that are all 0 in galpixels that a step does not change, see [`motion_bits`].
     motion_bits: Words,
     tally: Tally,
 }
 
-/// A chunk on its way: its galpixels after the step, and where they were. Made once for all chunks.
+/// The galpixels of a chunk after the step, and where they came from. The memory is reused for all chunks.
 struct Chunk {
     /// `words[word][lane]`.
     words: [[u32; CHUNK]; MAX_WORDS],
     keys: [u32; CHUNK],
-    /// Cells moved.
+    /// Displacements in cells.
     dx: [i32; CHUNK],
     dy: [i32; CHUNK],
-    /// Cells that the lane before moved; the first lane's own for the first.
-    before_dx: [i32; CHUNK],
-    before_dy: [i32; CHUNK],
-    /// Not 0 where a lane does not go with the one before it: there a run ends.
-    turns: [i32; CHUNK],
+    /// Displacements of the lane before; for the first lane its own.
+    previous_dx: [i32; CHUNK],
+    previous_dy: [i32; CHUNK],
+    /// Not 0 for lanes whose displacement differs from that of the lane before: a run boundary.
+    boundary: [i32; CHUNK],
+    /// Column and row of the first cell.
     x: i32,
     y: i32,
+    /// The first cell.
     source: u32,
+    /// Cells of the chunk; less than [`CHUNK`] at the end of a row.
+    cells: usize,
 }
 
-/// Propagates `front` by one frame into `back` and resolves collisions.
-///
-/// `frame` is the frame counter of `front`; it may wrap. `winners` is either empty, and then nobody's origin is kept, or
-/// has a word for each cell. Cells that nothing reached are of class empty; their other fields and their winner are
-/// not defined before [`crate::frame::fill`] has gone over them. Both maps must have the same grid, else nothing is done.
+/// Propagates `front` by one frame into `back` and resolves collisions, see [`crate::frame::resolve::sweep`].
 pub fn sweep<F: Format>(
     front: &Galpixmap<'_, F>,
     back: &mut Galpixmap<'_, F>,
@@ -90,21 +91,22 @@ pub fn sweep<F: Format>(
         keys: [0; CHUNK],
         dx: [0; CHUNK],
         dy: [0; CHUNK],
-        before_dx: [0; CHUNK],
-        before_dy: [0; CHUNK],
-        turns: [0; CHUNK],
+        previous_dx: [0; CHUNK],
+        previous_dy: [0; CHUNK],
+        boundary: [0; CHUNK],
         x: 0,
         y: 0,
         source: 0,
+        cells: 0,
     };
-    // The words before the step, at the end of a row.
-    let mut rest = [[0; CHUNK]; MAX_WORDS];
+    // Copies of the words of the last chunk of a row.
+    let mut tail = [[0; CHUNK]; MAX_WORDS];
     for (y, &start) in grid.starts().iter().enumerate() {
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(CHUNK as u32);
-            (chunk.x, chunk.y, chunk.source) = (x as i32, y as i32, start + x);
-            target.take(front, &thresholds, &mut chunk, &mut rest, cells as usize);
+            (chunk.x, chunk.y, chunk.source, chunk.cells) = (x as i32, y as i32, start + x, cells as usize);
+            target.sweep_chunk(front, &thresholds, &mut chunk, &mut tail);
             x += cells;
         }
     }
@@ -112,9 +114,11 @@ pub fn sweep<F: Format>(
     target.tally
 }
 
-/// All bits of velocities and accelerations, and the one of the class that empty cells and what was just unobscured have: where
-/// these are 0, a step changes nothing. Without them the position's threshold is dropped again, and the rest of the position
-/// is less than half a cell.
+/// Returns the bits of velocities and accelerations, and the bit of the class that is set for empty and just-unobscured
+/// cells.
+///
+/// If all of them are 0, a step changes nothing: the rounding threshold alone is less than what is dropped, and the
+/// offset is within the cell.
 fn motion_bits(record: &Record) -> Words {
     let mut motion_bits = [0; MAX_WORDS];
     for component in 0..3 {
@@ -125,22 +129,23 @@ fn motion_bits(record: &Record) -> Words {
     motion_bits
 }
 
-/// The chunk of a plane that begins at `source`; where fewer than [`CHUNK`] cells are left of the row, their copy in `rest`.
+/// Returns the chunk of a plane that begins at cell `source`. If it has less than [`CHUNK`] cells, copies them into
+/// `tail`.
 #[inline(always)]
-fn lanes_of<'l>(plane: &'l [u32], source: u32, cells: usize, rest: &'l mut [u32; CHUNK]) -> &'l [u32; CHUNK] {
+fn lanes_of<'l>(plane: &'l [u32], source: u32, cells: usize, tail: &'l mut [u32; CHUNK]) -> &'l [u32; CHUNK] {
     let plane = plane.get(source as usize..).unwrap_or_default();
     if cells == CHUNK
         && let Some(lanes) = plane.first_chunk::<CHUNK>()
     {
         return lanes;
     }
-    for (to, &from) in rest.iter_mut().zip(plane).take(cells) {
+    for (to, &from) in tail.iter_mut().zip(plane).take(cells) {
         *to = from;
     }
-    rest
+    tail
 }
 
-/// The step of a chunk, galpixel by galpixel: by which bits fields of any of them overflowed.
+/// Steps a chunk galpixel by galpixel. Returns a number that is not 0 if a field of any of them overflowed.
 #[inline(always)]
 fn step_lanes(record: &Record, thresholds: &[i32; 3], sources: &[&[u32; CHUNK]; MAX_WORDS], chunk: &mut Chunk) -> i32 {
     let mut overflowed = 0;
@@ -157,13 +162,13 @@ fn step_lanes(record: &Record, thresholds: &[i32; 3], sources: &[&[u32; CHUNK]; 
         chunk.keys[lane] = key;
         overflowed |= step.overflowed[0] | step.overflowed[1] | step.overflowed[2] | step.overflowed[3];
         let empty = (key >> record.depth().bits == Class::Empty as u32) as i32;
-        chunk.dx[lane] = step.dx ^ (empty << NOWHERE);
+        chunk.dx[lane] = step.dx ^ (empty << EMPTY_BIT);
         chunk.dy[lane] = step.dy;
     }
     overflowed
 }
 
-/// `lanes` moved up by one lane; the first stays.
+/// Sets each lane of `shifted` to the lane before it of `lanes`, and the first one to the first one.
 #[inline(always)]
 fn shift_in(shifted: &mut [i32; CHUNK], lanes: &[i32; CHUNK]) {
     shifted[0] = lanes[0];
@@ -172,37 +177,37 @@ fn shift_in(shifted: &mut [i32; CHUNK], lanes: &[i32; CHUNK]) {
     }
 }
 
-/// How many lanes from the first on go straight on.
+/// Returns the number of lanes before the first run boundary.
 #[inline(always)]
-fn straight(turns: &[i32]) -> usize {
-    let (eights, _) = turns.as_chunks::<8>();
-    let straight = eights.iter().take_while(|turns| turns.iter().fold(0, |any, turn| any | turn) == 0).count() << 3;
-    straight + turns.iter().skip(straight).take_while(|&&turn| turn == 0).count()
+fn run_length(boundary: &[i32]) -> usize {
+    let (eights, _) = boundary.as_chunks::<8>();
+    let length = eights.iter().take_while(|lanes| lanes.iter().fold(0, |any, lane| any | lane) == 0).count() << 3;
+    length + boundary.iter().skip(length).take_while(|&&lane| lane == 0).count()
 }
 
 impl<F: Format> Target<'_, '_, F> {
-    /// Takes the galpixels of the `cells` cells from where `chunk` stands.
+    /// Steps and stores the galpixels of the cells of `chunk`.
     #[inline(always)]
-    fn take(
+    fn sweep_chunk(
         &mut self,
         front: &Galpixmap<'_, F>,
         thresholds: &[i32; 3],
         chunk: &mut Chunk,
-        rest: &mut [[u32; CHUNK]; MAX_WORDS],
-        cells: usize,
+        tail: &mut [[u32; CHUNK]; MAX_WORDS],
     ) {
         let record = front.record();
+        let cells = chunk.cells;
         let mut sources = [&[0; CHUNK]; MAX_WORDS];
-        for ((lanes, plane), rest) in sources.iter_mut().zip(front.planes()).zip(rest).take(record.words()) {
-            *lanes = lanes_of(plane, chunk.source, cells, rest);
+        for ((lanes, plane), tail) in sources.iter_mut().zip(front.planes()).zip(tail).take(record.words()) {
+            *lanes = lanes_of(plane, chunk.source, cells, tail);
         }
         if front.class(chunk.source) == Class::Empty {
             let source = chunk.source as usize;
             if front.all_empty(source..source + cells) {
                 return;
             }
-        } else if self.rests(record, &sources, cells) {
-            self.store_resting(record, &sources, chunk, cells);
+        } else if self.is_unchanged(record, &sources, cells) {
+            self.store_unchanged(record, &sources, chunk);
             return;
         }
         let overflowed = if F::FIXED {
@@ -215,7 +220,7 @@ impl<F: Format> Target<'_, '_, F> {
             Planes::new(record, thresholds, words).step(dx, dy, keys)
         };
         if overflowed != 0 {
-            self.retake(front, thresholds, chunk, cells);
+            self.step_clamped(front, thresholds, chunk);
         }
         let (first_dx, first_dy) = (chunk.dx[0], chunk.dy[0]);
         let mut apart = 0;
@@ -225,14 +230,14 @@ impl<F: Format> Target<'_, '_, F> {
         if apart == 0 {
             self.store_unless_empty(chunk, 0..cells);
         } else {
-            self.store_runs(chunk, cells);
+            self.store_runs(chunk);
         }
     }
 
-    /// Whether a step changes nothing in a chunk.
+    /// Returns whether a step changes nothing in a chunk.
     #[inline(always)]
-    fn rests(&self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], cells: usize) -> bool {
-        // A colour format of one's own need not leave a colour alone that is brightened by nothing.
+    fn is_unchanged(&self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], cells: usize) -> bool {
+        // With shading inertia a colour may change although its galpixel does not move.
         if record.layout().luminosity && record.luminosity_rate().present() {
             return false;
         }
@@ -244,13 +249,7 @@ impl<F: Format> Target<'_, '_, F> {
     }
 
     /// Stores a chunk in which a step changes nothing.
-    fn store_resting(
-        &mut self,
-        record: &Record,
-        sources: &[&[u32; CHUNK]; MAX_WORDS],
-        chunk: &mut Chunk,
-        cells: usize,
-    ) {
+    fn store_unchanged(&mut self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], chunk: &mut Chunk) {
         for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
             *to = **from;
         }
@@ -262,10 +261,10 @@ impl<F: Format> Target<'_, '_, F> {
             chunk.keys[lane] = resolve::key(record, &words);
         }
         (chunk.dx[0], chunk.dy[0]) = (0, 0);
-        self.store_run(chunk, 0..cells);
+        self.store_run(chunk, 0..chunk.cells);
     }
 
-    /// Stores a run of lanes that go the same way, unless that is nowhere.
+    /// Stores a run of lanes, unless their cells are empty.
     #[inline(always)]
     fn store_unless_empty(&mut self, chunk: &Chunk, lanes: Range<usize>) {
         if chunk.keys.get(lanes.start).is_some_and(|&key| self.back.class_of(key) != Class::Empty as u32) {
@@ -274,24 +273,26 @@ impl<F: Format> Target<'_, '_, F> {
     }
 
     /// Stores a chunk run by run.
-    fn store_runs(&mut self, chunk: &mut Chunk, cells: usize) {
-        shift_in(&mut chunk.before_dx, &chunk.dx);
-        shift_in(&mut chunk.before_dy, &chunk.dy);
+    fn store_runs(&mut self, chunk: &mut Chunk) {
+        let cells = chunk.cells;
+        shift_in(&mut chunk.previous_dx, &chunk.dx);
+        shift_in(&mut chunk.previous_dy, &chunk.dy);
         for lane in 0..CHUNK {
-            chunk.turns[lane] = (chunk.dx[lane] ^ chunk.before_dx[lane]) | (chunk.dy[lane] ^ chunk.before_dy[lane]);
+            let (dx, dy) = (chunk.dx[lane] ^ chunk.previous_dx[lane], chunk.dy[lane] ^ chunk.previous_dy[lane]);
+            chunk.boundary[lane] = dx | dy;
         }
         let mut first = 0;
         while first < cells {
-            let end = first + 1 + straight(chunk.turns.get(first + 1..cells).unwrap_or_default());
+            let end = first + 1 + run_length(chunk.boundary.get(first + 1..cells).unwrap_or_default());
             self.store_unless_empty(chunk, first..end);
             first = end;
         }
     }
 
-    /// Takes the steps of a chunk again, with clamps: rare.
+    /// Repeats the steps of a chunk with clamps. The displacements are already correct. Rare.
     #[cold]
-    fn retake(&mut self, front: &Galpixmap<'_, F>, thresholds: &[i32; 3], chunk: &mut Chunk, cells: usize) {
-        for (lane, cell) in (chunk.source..).take(cells).enumerate() {
+    fn step_clamped(&mut self, front: &Galpixmap<'_, F>, thresholds: &[i32; 3], chunk: &mut Chunk) {
+        for (lane, cell) in (chunk.source..).take(chunk.cells).enumerate() {
             let (Some(mut words), Some(key)) = (front.words_at(cell), chunk.keys.get_mut(lane)) else { return };
             let step = advance::<true>(front.record(), thresholds, &mut words);
             *key = resolve::key(front.record(), &words);
@@ -306,7 +307,7 @@ impl<F: Format> Target<'_, '_, F> {
         }
     }
 
-    /// Stores a run: galpixels, none of them empty, with one displacement.
+    /// Stores a run of galpixels with equal displacements; none of its cells is empty.
     #[inline(always)]
     fn store_run(&mut self, chunk: &Chunk, lanes: Range<usize>) {
         let Chunk { dx, dy, keys, x, y, source, .. } = chunk;
@@ -321,7 +322,7 @@ impl<F: Format> Target<'_, '_, F> {
             self.tally.lost += keys.len() as u32;
             return;
         };
-        // Cut off what leaves the map at the left and at the right.
+        // Lanes that leave the map at the left and at the right are cut off.
         let before = (-to_x).max(0) as usize;
         let beyond = (to_x + keys.len() as i32 - grid.width() as i32).max(0) as usize;
         if before + beyond >= keys.len() {
@@ -335,7 +336,7 @@ impl<F: Format> Target<'_, '_, F> {
         self.put_run(chunk, lanes.clone(), cell, source + lanes.start as u32);
     }
 
-    /// Puts the lanes of a run into the cells from `cell` on, where they are nearer than what is there.
+    /// Stores the lanes of a run in the cells from `cell` on, where they are nearer than the incumbents.
     #[inline(always)]
     fn put_run(&mut self, chunk: &Chunk, lanes: Range<usize>, cell: u32, source: u32) {
         if lanes.len() < SHORT_RUN {
@@ -364,7 +365,7 @@ impl<F: Format> Target<'_, '_, F> {
         }
     }
 
-    /// Puts the lanes of a run into cells some of which are occupied.
+    /// Stores the lanes of a run in cells of which some are occupied.
     fn merge_run(&mut self, chunk: &Chunk, lanes: Range<usize>, cells: Range<usize>, source: u32) {
         let mut wins = [0; CHUNK];
         let (Some(keys), Some(wins)) = (chunk.keys.get(lanes.clone()), wins.get_mut(..lanes.len())) else { return };
@@ -389,7 +390,7 @@ impl<F: Format> Target<'_, '_, F> {
         }
     }
 
-    /// Puts one lane into one cell, if it is nearer than what is there.
+    /// Stores a lane in a cell, if it is nearer than the incumbent.
     #[inline(always)]
     fn put_one(&mut self, chunk: &Chunk, lane: usize, cell: u32, source: u32) {
         let (Some(incumbent), Some(&key)) = (self.back.key_at(cell), chunk.keys.get(lane)) else { return };
@@ -407,7 +408,7 @@ impl<F: Format> Target<'_, '_, F> {
         }
     }
 
-    /// Makes sure that row `y`, which starts at cell `row`, is cleared.
+    /// Ensures that row `y`, whose first cell is `row`, is cleared.
     #[inline(always)]
     fn clear_for(&mut self, row: u32, y: i32) {
         if row >= self.cleared {
@@ -416,7 +417,7 @@ impl<F: Format> Target<'_, '_, F> {
         }
     }
 
-    /// Clears up to, but without, the cell `end`.
+    /// Clears all cells before `end` that are not yet cleared.
     fn clear_to(&mut self, end: u32) {
         let cells = self.cleared as usize..end as usize;
         let record = *self.back.record();

@@ -1,22 +1,23 @@
-//! The step of a chunk, field by field: for budgets chosen at run time.
+//! Steps a chunk field by field, for formats chosen at run time.
 //!
-//! Where a field lies is then a variable. In a loop over galpixels such variables end vector code; in a loop over the lanes of
-//! one field they do not change. The arithmetic is that of [`crate::frame::step::advance`], without clamps.
+//! The positions of the fields are then variables, which prevent vector code in a loop over galpixels. In a loop over
+//! the lanes of a single field they are constant. The arithmetic is that of [`crate::frame::step::advance`] without
+//! clamps.
 
 use super::CHUNK;
 use crate::format::record::{Extract, Field, MAX_WORDS, Record};
 use crate::frame::step::{snap, step_position, step_velocity};
 use crate::map::galpixel::Class;
 
-/// One field of all lanes.
+/// A field of all lanes.
 type Lanes = [i32; CHUNK];
 
 /// `words[word][lane]`.
 type Chunk = [[u32; CHUNK]; MAX_WORDS];
 
-/// Takes a field out of all lanes with `take`.
+/// Extracts a field of all lanes with `extract_with`.
 #[inline(always)]
-fn unpack(field: Field, words: &Chunk, lanes: &mut Lanes, take: impl Fn(Extract, u32, u32) -> i32) {
+fn unpack(field: Field, words: &Chunk, lanes: &mut Lanes, extract_with: impl Fn(Extract, u32, u32) -> i32) {
     if !field.present() {
         *lanes = [0; CHUNK];
         return;
@@ -24,15 +25,17 @@ fn unpack(field: Field, words: &Chunk, lanes: &mut Lanes, take: impl Fn(Extract,
     let (upper, lower) = field.words();
     let extract = field.extract();
     for ((lane, &upper), &lower) in lanes.iter_mut().zip(&words[upper]).zip(&words[lower]) {
-        *lane = take(extract, upper, lower);
+        *lane = extract_with(extract, upper, lower);
     }
 }
 
+/// Extracts a field of all lanes as two's complement numbers.
 #[inline(never)]
 fn unpack_signed(field: Field, words: &Chunk, lanes: &mut Lanes) {
     unpack(field, words, lanes, |extract, upper, lower| extract.signed(upper, lower));
 }
 
+/// Extracts a field of all lanes as unsigned numbers.
 #[inline(never)]
 fn unpack_unsigned(field: Field, words: &Chunk, lanes: &mut Lanes) {
     unpack(field, words, lanes, |extract, upper, lower| extract.unsigned(upper, lower) as i32);
@@ -57,7 +60,7 @@ fn pack(field: Field, words: &mut Chunk, lanes: &Lanes) {
     }
 }
 
-/// What a step of a chunk is made with, and memory for three fields of it.
+/// A step of a chunk, and memory for three fields of its lanes.
 pub(super) struct Planes<'c> {
     record: &'c Record,
     thresholds: &'c [i32; 3],
@@ -65,28 +68,29 @@ pub(super) struct Planes<'c> {
     position: Lanes,
     v: Lanes,
     a: Lanes,
-    /// The bits by which a velocity or a depth of any lane left its field.
+    /// Not 0 if a velocity or a depth of any lane left its field.
     overflowed: i32,
 }
 
 impl<'c> Planes<'c> {
+    /// Prepares a step of the chunk `words`.
     pub fn new(record: &'c Record, thresholds: &'c [i32; 3], words: &'c mut Chunk) -> Self {
         let none = [0; CHUNK];
         Self { record, thresholds, words, position: none, v: none, a: none, overflowed: 0 }
     }
 
-    /// Moves all galpixels forward by one frame: the cells moved in `dx` and `dy`, the keys after the step in `keys`, and by
-    /// which bits fields of any of them overflowed.
+    /// Propagates all galpixels by one frame. Writes the displacements in cells into `dx` and `dy` and the keys after
+    /// the step into `keys`. Returns a number that is not 0 if a field of any galpixel overflowed.
     pub fn step(mut self, dx: &mut Lanes, dy: &mut Lanes, keys: &mut [u32; CHUNK]) -> i32 {
         self.step_plane::<0>(dx);
         self.step_plane::<1>(dy);
         self.step_depth();
         self.step_luminosity();
-        self.age(dx, keys);
+        self.step_class(dx, keys);
         self.overflowed
     }
 
-    /// A step in x (0) or y (1).
+    /// Steps x (0) or y (1).
     fn step_plane<const COMPONENT: usize>(&mut self, moved: &mut Lanes) {
         let record = self.record;
         if !record.velocity(COMPONENT).present() {
@@ -95,28 +99,28 @@ impl<'c> Planes<'c> {
         }
         let offset = if COMPONENT == 0 { record.offset_x() } else { record.offset_y() };
         unpack_signed(offset, self.words, &mut self.position);
-        self.move_on::<COMPONENT>();
+        self.step_component::<COMPONENT>();
         for (moved, &position) in moved.iter_mut().zip(&self.position) {
             *moved = snap(&record.scales[COMPONENT], position);
         }
         pack(offset, self.words, &self.position);
     }
 
-    /// A step in depth.
+    /// Steps the depth.
     fn step_depth(&mut self) {
         let record = self.record;
         if !record.velocity(2).present() {
             return;
         }
         unpack_unsigned(record.depth(), self.words, &mut self.position);
-        self.move_on::<2>();
+        self.step_component::<2>();
         let far = ((1u32 << record.depth().bits) - 1) as i32;
         self.overflowed |= self.position.iter().fold(0, |overflowed, position| overflowed | position & !far);
         pack(record.depth(), self.words, &self.position);
     }
 
-    /// Takes `position` and the velocity of a component one frame further.
-    fn move_on<const COMPONENT: usize>(&mut self) {
+    /// Steps `position` and the velocity of a component.
+    fn step_component<const COMPONENT: usize>(&mut self) {
         let (record, threshold) = (self.record, self.thresholds[COMPONENT]);
         let scale = record.scales[COMPONENT];
         let (velocity, acceleration) = (record.velocity(COMPONENT), record.acceleration(COMPONENT));
@@ -137,7 +141,7 @@ impl<'c> Planes<'c> {
         }
     }
 
-    /// Shading inertia.
+    /// Steps the luminosity (shading inertia).
     fn step_luminosity(&mut self) {
         let record = self.record;
         if !record.layout().luminosity || !record.luminosity_rate().present() {
@@ -154,8 +158,8 @@ impl<'c> Planes<'c> {
         pack(record.colour(), self.words, &self.a);
     }
 
-    /// What was just unobscured is debris from now on. Class and depth as keys, and a way of their own for empty cells.
-    fn age(&mut self, dx: &mut Lanes, keys: &mut [u32; CHUNK]) {
+    /// Steps the class: just-unobscured becomes debris. Writes the keys, and inverts the bit of `dx` for empty cells.
+    fn step_class(&mut self, dx: &mut Lanes, keys: &mut [u32; CHUNK]) {
         let record = self.record;
         unpack_unsigned(record.class(), self.words, &mut self.v);
         unpack_unsigned(record.depth(), self.words, &mut self.position);
@@ -163,7 +167,7 @@ impl<'c> Planes<'c> {
         for (((class, &depth), key), dx) in lanes.zip(keys).zip(dx) {
             *class += (*class == Class::JustUnobscured as i32) as i32;
             *key = (*class as u32) << record.depth().bits | depth as u32;
-            *dx ^= ((*class == Class::Empty as i32) as i32) << super::NOWHERE;
+            *dx ^= ((*class == Class::Empty as i32) as i32) << super::EMPTY_BIT;
         }
         pack(record.class(), self.words, &self.v);
     }

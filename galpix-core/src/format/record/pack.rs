@@ -1,9 +1,12 @@
-//! Packing: which bits of which word a field gets.
+//! Packs fields into words.
 
 use super::{FIELDS, Field, MAX_WORDS};
 use crate::error::BudgetError;
 
-/// Places fields of these widths, in canonical order, into the fewest words: the fields, the words, the bits in use.
+/// Packs fields of these widths, given in canonical order, into as few words as their bits allow. Returns the fields,
+/// the number of words and the number of bits in use.
+///
+/// *Errors:* a field wider than a word, more than [`MAX_WORDS`] words.
 pub(super) const fn pack(widths: [u32; FIELDS]) -> Result<([Field; FIELDS], u8, u16), BudgetError> {
     let mut total = 0;
     let mut i = 0;
@@ -25,7 +28,7 @@ pub(super) const fn pack(widths: [u32; FIELDS]) -> Result<([Field; FIELDS], u8, 
     Ok((fields, fewest as u8, total as u16))
 }
 
-/// First-fit by falling width into `words` words, if that succeeds.
+/// Packs fields by first-fit with decreasing width into `words` words; `None` if they do not fit.
 const fn first_fit(widths: [u32; FIELDS], words: u32) -> Option<[Field; FIELDS]> {
     let mut fields = [Field { bits: 0, word: 0, shift: 0, spill: 0 }; FIELDS];
     let mut used = [0u32; MAX_WORDS];
@@ -61,7 +64,7 @@ const fn first_fit(widths: [u32; FIELDS], words: u32) -> Option<[Field; FIELDS]>
     Some(fields)
 }
 
-/// All fields one after the other, from the top of the first word.
+/// Packs fields one after the other, from the top of the first word. A field may straddle two words.
 const fn end_to_end(widths: [u32; FIELDS]) -> [Field; FIELDS] {
     let mut fields = [Field { bits: 0, word: 0, shift: 0, spill: 0 }; FIELDS];
     let mut start = 0;

@@ -1,4 +1,4 @@
-//! The packing of every layout under many budgets.
+//! Tests the packing of many layouts under many budgets.
 
 extern crate std;
 
@@ -7,15 +7,15 @@ use crate::format::budget::{Bits, Demand};
 use crate::format::colour::Colour;
 use crate::format::layout::Layout;
 
-/// Depth bits, motion, luminosity, tag and colour in many combinations.
+/// Returns layouts with many combinations of depth bits, motion, luminosity, tag and colour.
 fn layouts() -> impl Iterator<Item = Layout> {
     let depths = [0, 4, 8, 16, 24];
     let motions =
         [(false, false, false), (true, false, false), (true, true, false), (true, true, true), (true, false, true)];
-    let rest = [(false, 0), (false, 8), (true, 0), (true, 8), (false, 32)];
+    let extras = [(false, 0), (false, 8), (true, 0), (true, 8), (false, 32)];
     depths.into_iter().flat_map(move |depth_bits| {
         motions.into_iter().flat_map(move |(velocity, acceleration, depth_motion)| {
-            rest.into_iter().flat_map(move |(luminosity, tag_bits)| {
+            extras.into_iter().flat_map(move |(luminosity, tag_bits)| {
                 [Colour::GRAY4, Colour::GRAY8, Colour::RGB565, Colour::RGB888].map(|colour| Layout {
                     colour,
                     depth_bits,
@@ -60,7 +60,7 @@ fn every_field_is_there_alone_and_in_the_fewest_words() {
         assert_eq!(record.bits(), total);
         assert_eq!(record.words(), total.div_ceil(32) as usize, "{bits:?} {layout:?}");
         assert_eq!(record.bytes(), 4 * record.words());
-        // A field that is set alone sets as many bits as it has, and no bit belongs to two.
+        // Setting a field alone sets as many bits as it has, and no bit belongs to two fields.
         let mut taken = Words::default();
         for field in record.fields {
             let mut words = Words::default();
@@ -105,13 +105,13 @@ fn every_field_is_read_as_it_was_set_and_disturbs_no_other() {
     }
 }
 
-/// The low bits of `value`, the highest of them weighing negatively.
+/// Returns the low bits of `value` as a two's complement number of the field's width.
 fn two_complement(field: Field, value: u32) -> i64 {
     let low = i64::from(value & top(field));
     if field.present() && low >> (field.bits - 1) == 1 { low - (1 << field.bits) } else { low }
 }
 
-/// A first-fit record has class and depth in one word, the class on top: they compare as one number.
+/// Fields that share a word are in canonical order, and end-to-end packing leaves no gap.
 #[test]
 fn fields_stand_in_canonical_order_from_the_top() {
     for (record, layout, _) in records() {

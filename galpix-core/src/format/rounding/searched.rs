@@ -1,9 +1,9 @@
-//! Threshold tables found by search: `cargo run --release -p galpix-sim --example search_thresholds` finds them anew.
+//! Threshold tables found by search. `cargo run --release -p galpix-sim --example search_thresholds` reproduces them.
 
-/// The most dropped bits that there is a table for.
+/// The largest number of dropped bits for which there is a table.
 pub(super) const MOST: u32 = 6;
 
-/// The table for `shift` dropped bits fills the places `2^shift .. 2^(shift+1)`; the first two places are none's.
+/// The tables: the one for `shift` dropped bits has the indices `2^shift .. 2^(shift + 1)`. The first two are unused.
 #[rustfmt::skip]
 const THRESHOLDS: [u8; 2 << MOST] = [
     0, 0,
@@ -19,9 +19,8 @@ const THRESHOLDS: [u8; 2 << MOST] = [
     23, 40, 39, 55, 10, 29, 26, 4, 62, 26, 47, 32, 3, 37, 59, 12,
 ];
 
-/// The threshold of a frame; `shift` is at most [`MOST`].
+/// Returns the threshold of a frame; `shift` is 1 to [`MOST`].
 pub(super) const fn threshold(frame: u32, shift: u32) -> i32 {
-    let place = 1 << shift | frame & ((1 << shift) - 1);
-    // The mask changes nothing, and tells the compiler that there is such a place.
-    THRESHOLDS[place as usize & (THRESHOLDS.len() - 1)] as i32
+    let index = 1 << shift | frame & ((1 << shift) - 1);
+    THRESHOLDS[index as usize] as i32
 }

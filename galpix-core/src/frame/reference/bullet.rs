@@ -1,6 +1,6 @@
-//! What a bullet hole would take, asked of every cell: a mean of four cells in every case.
+//! The value that every cell would take as a bullet hole: always a mean of four cells.
 //!
-//! Means of one and two are means of four with repeats, see [`mean`], so that one way of calculating does for all.
+//! Means of one and of two cells are means of four cells with repetitions, see [`mean`].
 
 use super::{below, choose, negative, not_zero, opaque};
 use crate::format::Format;
@@ -10,7 +10,7 @@ use crate::frame::fill::{Around, FILLED, mean};
 use crate::frame::resolve::NO_WINNER;
 use crate::map::Galpixmap;
 
-/// What is known of the cells around.
+/// What the cells around a hole hold, and where it came from.
 pub(super) struct Surroundings<'s, 'p, A, F> {
     pub around: &'s A,
     pub back: &'s Galpixmap<'p, F>,
@@ -19,21 +19,21 @@ pub(super) struct Surroundings<'s, 'p, A, F> {
     pub round: u32,
 }
 
-/// A place beside a cell: the cell there, or the cell itself beyond the border, and all ones if it is on the map.
+/// A neighbour of a cell: beyond the border the cell itself, and `exists` is 0 instead of all ones.
 #[derive(Clone, Copy)]
 struct Place {
     cell: u32,
     exists: u32,
 }
 
-/// Which cells a mean is taken of.
+/// The four cells of which a mean is taken.
 struct Chosen {
     first: u32,
     second: u32,
-    /// The third and the fourth of four; else the first and the second again.
+    /// The third and the fourth of four cells; else the first and the second again.
     third: u32,
     fourth: u32,
-    /// All ones if there is any.
+    /// All ones if there is any cell to take a mean of, else 0.
     any: u32,
 }
 
@@ -44,8 +44,8 @@ impl Place {
     }
 }
 
-/// Of the neighbours `a` and `b`, `c` and `d`, that face each other: all four; else two that face each other; else the two
-/// there are; else the one there is. `inside` has all ones for those that count.
+/// Chooses the cells of a mean. `cells` are two pairs that face each other; `inside` has all ones for those that may be
+/// used: all four; else two that face each other; else the two there are; else the one there is.
 #[inline(always)]
 fn chosen(cells: [u32; 4], inside: [u32; 4]) -> Chosen {
     let ([a, b, c, d], [in_a, in_b, in_c, in_d]) = (cells, inside);
@@ -59,13 +59,14 @@ fn chosen(cells: [u32; 4], inside: [u32; 4]) -> Chosen {
 }
 
 impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
-    /// The mean of the neighbours that lie inside a surface, and all ones if there are any; rubbish and 0 if there are none.
+    /// Returns the mean of the neighbours inside a surface, and all ones if there are any; else unspecified words and
+    /// 0.
     #[inline(always)]
     pub fn mean(&self, x: i32, y: i32, cell: u32) -> (Words, u32) {
         let grid = self.back.grid();
-        // Whether there is a column to the left and to the right: not by a difference, which one compiler took for a product.
-        let (left, right) = (not_zero(x as u32), not_zero(x as u32 ^ (grid.width() - 1)));
-        // Above the first and below the last row: the row itself.
+        // All ones if there is a column to the left and to the right.
+        let (left, right) = (not_zero(x as u32), below(x as u32, grid.width() - 1));
+        // Above the first and below the last row, the row itself.
         let row = |y: i32| grid.row(y).map_or((cell.wrapping_sub(x as u32), 0), |row| (row, u32::MAX));
         let rows = [row(y - 1), row(y), row(y + 1)];
         let place = |dx: i32, column: u32, (row, exists): (u32, u32)| Place {
@@ -77,7 +78,7 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
             [place(-1, left, rows[1]), place(1, right, rows[1]), place(0, here, rows[0]), place(0, here, rows[2])];
         let corners =
             [place(-1, left, rows[0]), place(1, right, rows[2]), place(1, right, rows[0]), place(-1, left, rows[2])];
-        // A vacant place is not inside a surface: where all sides are vacant, the corners count, and else the sides.
+        // Where all neighbours that share a side are vacant, those that share a corner are used instead.
         let crossing = sides.iter().fold(u32::MAX, |all, &side| all & self.vacant(side));
         let mut cells = [0; 4];
         let mut inside = [0; 4];
@@ -92,21 +93,21 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
         (mean(self.back.record(), [&first, &second, &third, &fourth]), chosen.any)
     }
 
-    /// Who won the cell at a place; nobody beyond the border.
+    /// Returns the winner of the cell at a place; [`NO_WINNER`] beyond the border.
     #[inline(always)]
     fn winner(&self, place: Place) -> u32 {
         let winner = self.winners.get(place.cell as usize).copied().unwrap_or(NO_WINNER);
         winner | !place.exists
     }
 
-    /// All ones for the winner of a cell that was filled in an earlier round, else 0.
+    /// Returns all ones for the winner of a cell that was filled in an earlier round, else 0.
     #[inline(always)]
     fn filled_before(&self, winner: u32) -> u32 {
         const { assert!(FILLED == 1 << 31) }
         negative(winner as i32) & below(winner & !FILLED, self.round)
     }
 
-    /// All ones if there was nothing at a place when this round began, else 0.
+    /// Returns all ones if a place was a hole when this round began, else 0.
     #[inline(always)]
     fn vacant(&self, place: Place) -> u32 {
         let winner = self.winner(place);
@@ -114,7 +115,8 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
         negative(winner as i32) & !self.filled_before(winner) & !foreign
     }
 
-    /// All ones if what a place holds came from inside of a surface, or is a bullet fill of an earlier round, else 0.
+    /// Returns all ones if what a place holds came from inside a surface or is a bullet fill of an earlier round, else
+    /// 0.
     #[inline(always)]
     fn inside(&self, place: Place) -> u32 {
         let winner = self.winner(place);

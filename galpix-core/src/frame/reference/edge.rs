@@ -1,31 +1,30 @@
-//! The edge map, cell by cell, each key of a row read once.
+//! The edge map, cell by cell. Each key of the row is read once.
 
 use crate::format::Format;
 use crate::format::record::Record;
 use crate::frame::edge::{laplacian, set};
 use crate::map::Galpixmap;
 
-/// Cells of a word of the edge map.
+/// Cells for each word of the edge map.
 pub(crate) const WORD: u32 = 32;
 
-/// No Laplacian of galpixels is larger, and none differs from it by more than a word holds.
+/// The absolute Laplacian of four depths of 28 bits is never larger, and its sum with this number fits in a word.
 const LARGEST: u32 = (1 << 30) - 1;
 
-/// Returns the threshold as the kernel takes it.
-#[inline(always)]
-pub(crate) const fn limited(threshold: u32) -> i32 {
+/// Returns the threshold clamped to [`LARGEST`], as [`mark_run`] takes it.
+pub(crate) const fn clamped(threshold: u32) -> i32 {
     if threshold < LARGEST { threshold as i32 } else { LARGEST as i32 }
 }
 
-/// Marks the edges of a map, see [`crate::frame::edge::mark`].
+/// Marks the cells of a map that are on an edge, see [`crate::frame::edge::mark`].
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &mut [u32]) -> u32 {
     edges.fill(0);
-    let (width, threshold) = (front.grid().width(), limited(threshold));
+    let (width, threshold) = (front.grid().width(), clamped(threshold));
     let mut count = 0;
     let mut rows = front.grid().starts().iter().copied().peekable();
     let mut above = None;
     while let Some(row) = rows.next() {
-        // What lies beyond the map is like the row itself.
+        // Beyond the map the row is its own neighbour.
         let (up, down) = (above.unwrap_or(row), rows.peek().copied().unwrap_or(row));
         let mut x = 0;
         while x < width {
@@ -38,8 +37,9 @@ pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &
     count
 }
 
-/// Marks `cells` cells from column `x` on of a row, at most [`WORD`]; returns how many are on an edge. `rows` are the first
-/// cells of the row, of the one above and of the one below.
+/// Marks `cells` cells of a row from column `x` on, at most [`WORD`]; returns how many are on an edge.
+///
+/// `rows` are the first cells of the row, of the row above and of the row below.
 #[inline(always)]
 pub(crate) fn mark_run<F: Format>(
     front: &Galpixmap<'_, F>,
@@ -49,48 +49,48 @@ pub(crate) fn mark_run<F: Format>(
     edges: &mut [u32],
 ) -> u32 {
     let [first, up, down] = rows.map(|row| row + x);
-    // The first and the last column lack a neighbour: they are their own.
+    // In the first and the last column the cell is its own neighbour.
     let z0 = front.key_at(first).unwrap_or_default();
     let left = if x == 0 { z0 } else { front.key_at(first - 1).unwrap_or(z0) };
     let ends = x + cells == front.grid().width();
     let paired = cells - u32::from(ends);
-    let run = Run { right: first + 1, up, down };
-    let (mut flags, last) = run.flags(front, paired, threshold, left, z0);
+    let neighbours = Neighbours { right: first + 1, up, down };
+    let (mut flags, last) = neighbours.flags(front, paired, threshold, [left, z0]);
     if ends {
-        flags = flags >> 1 | run.next(paired).flag_of_last(front, threshold, last);
+        flags = flags >> 1 | neighbours.skip(paired).flag_of_last(front, threshold, last);
     }
     flags >>= WORD - cells;
     set(edges, first, flags);
     ones(flags)
 }
 
-/// Some cells of a row: where the neighbours of the first one are.
+/// The neighbours of the first of some adjacent cells.
 #[derive(Clone, Copy)]
-struct Run {
+struct Neighbours {
     right: u32,
     up: u32,
     down: u32,
 }
 
-impl Run {
-    const fn next(self, cells: u32) -> Self {
+impl Neighbours {
+    /// Returns the neighbours of the cell that follows after `cells` cells.
+    const fn skip(self, cells: u32) -> Self {
         Self { right: self.right + cells, up: self.up + cells, down: self.down + cells }
     }
 
-    /// The flags of `cells` cells, the last one in the highest bit, from the key left of them and that of the first one; and
-    /// these two for what comes next.
+    /// Returns the flags of `cells` cells, the last one in the highest bit. `left` and `z0` are the keys left of the
+    /// first cell and of the first cell; returns these keys of the cell that follows, too.
     #[inline(never)]
     fn flags<F: Format>(
         self,
         front: &Galpixmap<'_, F>,
         cells: u32,
         threshold: i32,
-        mut left: u32,
-        mut z0: u32,
+        [mut left, mut z0]: [u32; 2],
     ) -> (u32, [u32; 2]) {
         let record = *front.record();
         let count = cells as usize;
-        // Class, depth and its spill of each of the three rows, cut to one length.
+        // The words with class, depth and the spilled bits of the depth, for each of the three neighbours.
         let (class, (depth, spill)) = (record.class().words().0, record.depth().words());
         let cut = |word: usize, start: u32| front.planes()[word].get(start as usize..)?.get(..count);
         let rows = |start: u32| Some([cut(class, start)?, cut(depth, start)?, cut(spill, start)?]);
@@ -109,14 +109,14 @@ impl Run {
         (flags, [left, z0])
     }
 
-    /// The flag of a cell that has nothing to its right.
+    /// Returns the flag of the last cell of a row, which has no neighbour to the right.
     fn flag_of_last<F: Format>(self, front: &Galpixmap<'_, F>, threshold: i32, [left, z0]: [u32; 2]) -> u32 {
         let (up, down) = (front.key_at(self.up).unwrap_or(z0), front.key_at(self.down).unwrap_or(z0));
         flag(front, threshold, z0, [left, z0, up, down])
     }
 }
 
-/// Class and depth of a lane as one number, from its words with class, depth and what of it spills.
+/// Returns the key of a lane, from the words with its class, its depth and the spilled bits of its depth.
 #[inline(always)]
 fn key<F: Format>(record: &Record, [class, depth, spill]: &[&[u32]; 3], lane: usize) -> u32 {
     match record.key_field() {
@@ -128,13 +128,14 @@ fn key<F: Format>(record: &Record, [class, depth, spill]: &[&[u32]; 3], lane: us
     }
 }
 
-/// The highest bit if a cell is on the edge: the sign of a number tells, no comparison has to become a bit.
+/// Returns the highest bit if a cell is on an edge, else 0. Uses signs of numbers, so that no comparison has to become
+/// a bit.
 #[inline(always)]
 fn flag<F: Format>(front: &Galpixmap<'_, F>, threshold: i32, z0: u32, others: [u32; 4]) -> u32 {
     let [left, right, up, down] = others;
     let source = laplacian(z0 as i32, left as i32, right as i32, up as i32, down as i32);
     let (below, above) = (threshold.wrapping_add(source), threshold.wrapping_sub(source));
-    // Class 0 is a galpixel, and the class stands above the depth.
+    // The class of a galpixel is 0, and the class is above the depth.
     let deepest = (1 << front.record().depth().bits) - 1;
     let classes = deepest - (z0 | left | right | up | down) as i32;
     (below | above | classes) as u32 & 1 << (WORD - 1)

@@ -1,10 +1,10 @@
-//! The fill ladder, asked of every cell in every round: what a hole would get, and whether it is one.
+//! The fill of holes: every round computes for every cell what it would get as a hole, and keeps it if the cell is one.
 
 use super::bullet::Surroundings;
 use super::{below, choose, choose_words, is_empty, merge_word, opaque};
 use crate::format::Format;
 use crate::format::record::Words;
-use crate::frame::fill::{Around, FILLED, FillMode, Nothing};
+use crate::frame::fill::{Around, FILLED, FillMode, NoFrameBefore};
 use crate::frame::resolve::NO_WINNER;
 use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings};
@@ -30,7 +30,7 @@ pub(crate) fn fill<F: Format>(
     }
 }
 
-/// Fills the bullet holes alone: other holes stay empty, and are not counted.
+/// Fills only the bullet holes; other holes stay empty and are not counted.
 pub(crate) fn fill_bullets<F: Format>(
     back: &mut Galpixmap<'_, F>,
     scratch: &mut Scratch<'_>,
@@ -40,7 +40,7 @@ pub(crate) fn fill_bullets<F: Format>(
     let grid = *back.grid();
     let format = back.format();
     let Scratch { winners, edges } = scratch;
-    let around = &Nothing(format.record());
+    let around = &NoFrameBefore(format.record());
     let mut filler = Filler { around, back, winners, edges, fill_mode: FillMode::Bullet, tally };
     for round in 0..FillMode::Bullet.rounds(reach) {
         for (y, &row) in (0..).zip(grid.starts()) {
@@ -58,28 +58,28 @@ struct Filler<'f, 'q, A, F> {
     tally: &'f mut Tally,
 }
 
-/// The cells beside a run of holes, as far as a row has been gone through.
-struct Beside {
-    /// What the last cell holds that was not empty when the round began.
+/// The occupied cells on both sides of the current cell of a row; occupied when the round began.
+struct Occupied {
+    /// The words of the nearest one to the left.
     left: Words,
-    /// All ones if there was one.
+    /// All ones if there is one to the left, else 0.
     has_left: u32,
-    /// How many such cells are still to come.
-    to_come: u32,
+    /// How many there are to the right.
+    to_right: u32,
 }
 
 impl<A: Around, F: Format> Filler<'_, '_, A, F> {
-    /// Fills the holes of a row; in the last round none is left undecided.
+    /// Fills the bullet holes of a row; in the last round all of its holes.
     fn row(&mut self, row: u32, y: i32, round: u32, last: bool) {
-        let mut beside = Beside { left: Default::default(), has_left: 0, to_come: 0 };
+        let mut occupied = Occupied { left: Default::default(), has_left: 0, to_right: 0 };
         if last && self.fill_mode == FillMode::Extend {
-            beside.to_come = self.bring_right(row);
+            occupied.to_right = self.store_right_ends(row);
         }
         let width = self.back.grid().width();
         for (x, cell) in (0..width as i32).zip(row..) {
             let own = self.back.words_at(cell).unwrap_or_default();
             let hole = is_empty(self.back.record(), &own);
-            beside.to_come = beside.to_come.wrapping_sub(!hole & 1);
+            occupied.to_right = occupied.to_right.wrapping_sub(!hole & 1);
             let (mean, bullet) = if self.fill_mode.uses_edges() {
                 let (around, back, winners, edges) = (self.around, &*self.back, &*self.winners, self.edges);
                 Surroundings { around, back, winners, edges, round }.mean(x, y, cell)
@@ -89,7 +89,7 @@ impl<A: Around, F: Format> Filler<'_, '_, A, F> {
             let bullet = bullet & hole;
             let (mut words, mut winner, mut put) = (mean, FILLED + round, bullet);
             if last {
-                let unobscured = self.unobscured(cell, &beside, &own, hole & !bullet);
+                let unobscured = self.unobscured(cell, &occupied, &own, hole & !bullet);
                 words = choose_words(self.back.record(), bullet, &mean, &unobscured);
                 (winner, put) = (choose(bullet, winner, NO_WINNER), hole);
             }
@@ -97,33 +97,33 @@ impl<A: Around, F: Format> Filler<'_, '_, A, F> {
             self.tally.bullets += bullet & 1;
             self.back.put(cell, &choose_words(self.back.record(), put, &words, &own));
             merge_word(self.winners, cell, winner, put);
-            beside.left = choose_words(self.back.record(), hole, &beside.left, &own);
-            beside.has_left |= !hole;
+            occupied.left = choose_words(self.back.record(), hole, &occupied.left, &own);
+            occupied.has_left |= !hole;
         }
     }
 
-    /// Brings what lies at the right end of each run of holes into the holes themselves, which stay empty; returns how many
-    /// cells of the row are not.
-    fn bring_right(&mut self, row: u32) -> u32 {
+    /// Stores in each hole of a row what the next occupied cell to its right holds, except for the class: the holes
+    /// stay empty. Returns the number of occupied cells.
+    fn store_right_ends(&mut self, row: u32) -> u32 {
         let record = *self.back.record();
         let mut right: Words = Default::default();
-        let mut taken = 0;
+        let mut occupied = 0;
         for cell in (row..row + self.back.grid().width()).rev() {
             let own = self.back.words_at(cell).unwrap_or_default();
             let hole = is_empty(&record, &own);
             right = choose_words(&record, hole, &right, &own);
-            let mut brought = right;
-            record.class().set(&mut brought, record.class().unsigned(&own));
-            self.back.put(cell, &brought);
-            taken += !hole & 1;
+            let mut stored = right;
+            record.class().set(&mut stored, record.class().unsigned(&own));
+            self.back.put(cell, &stored);
+            occupied += !hole & 1;
         }
-        taken
+        occupied
     }
 
-    /// What the fill_mode puts into a cell that is no bullet hole; counted where `counts` has all ones. `right` holds what lies at
-    /// the right end of the run of holes, if anything does.
+    /// Returns what a hole holds that is no bullet hole, and counts it if `counts` has all ones. `right` are the words
+    /// of the nearest occupied cell to the right, if there is one.
     #[inline(always)]
-    fn unobscured(&mut self, cell: u32, beside: &Beside, right: &Words, counts: u32) -> Words {
+    fn unobscured(&mut self, cell: u32, occupied: &Occupied, right: &Words, counts: u32) -> Words {
         let record = self.around.record();
         let before = self.around.before(cell).unwrap_or_default();
         let known = !is_empty(record, &before);
@@ -137,11 +137,11 @@ impl<A: Around, F: Format> Filler<'_, '_, A, F> {
             left_behind = before;
             if self.fill_mode == FillMode::Extend {
                 let depth = record.depth();
-                let has_right = below(0, beside.to_come);
-                let farther = below(depth.unsigned(&beside.left), depth.unsigned(right));
-                let take_right = opaque(has_right & (!beside.has_left | farther));
-                let surface = choose_words(record, take_right, right, &beside.left);
-                left_behind = choose_words(record, has_right | beside.has_left, &surface, &before);
+                let has_right = below(0, occupied.to_right);
+                let farther = below(depth.unsigned(&occupied.left), depth.unsigned(right));
+                let take_right = opaque(has_right & (!occupied.has_left | farther));
+                let surface = choose_words(record, take_right, right, &occupied.left);
+                left_behind = choose_words(record, has_right | occupied.has_left, &surface, &before);
             }
             record.class().set(&mut left_behind, Class::JustUnobscured as u32);
             (0, known)

@@ -1,4 +1,4 @@
-//! Propagation and resolution, cell by cell in raster order: every galpixel, also one that is not there, challenges one cell.
+//! Propagation and resolution, cell by cell in raster order. Every cell, even an empty one, challenges one cell.
 
 use super::{below, beyond, cell_or_first, empty, is_empty, merge, merge_word};
 use crate::format::Format;
@@ -10,7 +10,7 @@ use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// [`crate::fast::wide::sweep`] with constant work: the same arguments, the same bits.
+/// Propagates `front` by one frame into `back` and resolves collisions, see [`crate::frame::resolve::sweep`].
 ///
 /// Cells that nothing reached are empty and black, and their winner is [`NO_WINNER`].
 pub fn sweep<F: Format>(
@@ -45,18 +45,18 @@ pub fn sweep<F: Format>(
     tally
 }
 
-/// A galpixel on its way to a cell.
+/// A galpixel that arrives at a cell.
 pub(crate) struct Challenger {
     pub words: Words,
-    /// The cell that it comes from.
+    /// The cell that it came from.
     pub source: u32,
-    /// Column and row of the cell that it wants.
+    /// Column and row at which it arrives.
     pub place: [i32; 2],
-    /// All ones if there is a galpixel at all, else 0.
+    /// All ones if there is a galpixel, else 0.
     pub there: u32,
 }
 
-/// Stores a challenger if its cell is on the map and holds nothing nearer; reads and writes the same words in any case.
+/// Stores a challenger if it arrives on the map and is nearer than what the cell holds. Reads and writes in any case.
 #[inline(always)]
 pub(crate) fn challenge<F: Format>(
     back: &mut Galpixmap<'_, F>,
@@ -70,7 +70,7 @@ pub(crate) fn challenge<F: Format>(
     let cell = cell_or_first(&grid, *place, beyond);
     let (key, incumbent) = (resolve::key(back.record(), words), back.key_at(cell).unwrap_or(0));
     let challenges = there & !beyond;
-    // In raster order the incumbent has the smaller source: of equal keys it stays.
+    // In raster order the incumbent has the smaller source, so that it wins if the keys are equal.
     let wins = challenges & below(key, incumbent);
     merge(back, cell, words, wins);
     merge_word(winners, cell, *source, wins);
@@ -79,7 +79,7 @@ pub(crate) fn challenge<F: Format>(
     tally.collided += challenges & !empty(back.class_of(incumbent)) & 1;
 }
 
-/// Makes all cells empty and without a winner.
+/// Makes all cells empty and black, without a winner.
 pub(crate) fn clear<F: Format>(back: &mut Galpixmap<'_, F>, winners: &mut [u32]) {
     let record = *back.record();
     let cells = back.grid().cells() as usize;
