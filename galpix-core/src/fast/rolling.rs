@@ -24,9 +24,8 @@ use crate::format::record::Record;
 use crate::frame::edge;
 use crate::frame::step::thresholds;
 use crate::frame::tally::Tally;
-use crate::frame::{Inpainting, Scratch, Settings};
-use crate::inpaint::map::Filling;
-use crate::inpaint::pyramid::Pyramid;
+use crate::frame::{Scratch, Settings};
+use crate::inpaint::{Inpainting, PushPull};
 use crate::map::Galpixmap;
 
 /// The most rows that a galpixel moves in a frame.
@@ -129,11 +128,11 @@ impl<'p, F: Format> Rolling<'p, F> {
         F::rolling_step(self, settings)
     }
 
-    /// Fills what the last step uncovered, by push-pull: how many cells. As [`crate::frame::Controller::inpaint`] does it with the same
-    /// `settings` and without quads, bit by bit: of the map before nothing is left to draw them from, and the depth that the
-    /// fill_mode gave the holes serves. [`Inpainting::quads`] does not matter.
-    pub fn inpaint<V: Filling>(&mut self, inpainting: &Inpainting<'_>, pyramid: &mut Pyramid<'_, V>) -> u32 {
-        V::push_pull(&mut self.map, inpainting, pyramid)
+    /// Fills what the last step uncovered, by push-pull: how many cells. [`crate::frame::Controller::inpaint`] gives the same bits
+    /// without quads: of the map before nothing is left to draw them from, and the depth that the fill mode gave the holes
+    /// serves. [`Inpainting::quads`] does not matter.
+    pub fn inpaint(&mut self, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
+        F::push_pull(&mut self.map, inpainting, push_pull)
     }
 
     /// Makes a row of the window empty, if there is one.

@@ -11,11 +11,7 @@ use crate::error::SetupError;
 use crate::fast;
 use crate::format::Format;
 use crate::format::rounding::Rounding;
-use crate::inpaint::map::Filling;
-use crate::inpaint::metamer::{self, Recipe};
-use crate::inpaint::push_pull::Rule;
-use crate::inpaint::pyramid::{DEPTH_BITS, Pyramid};
-use crate::inpaint::validity::Gamma;
+use crate::inpaint::{Inpainting, Metamer, PushPull};
 use crate::map::Galpixmap;
 use fill::{Around, FillMode};
 use tally::Tally;
@@ -45,32 +41,6 @@ impl Settings {
             edge_threshold: edge::threshold_for_depth(depth_bits),
             reach: 1,
         }
-    }
-}
-
-/// How what was just uncovered is filled after a frame, see [`crate::inpaint`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Inpainting<'m> {
-    /// How far coarser levels are needed, and what foreground is.
-    pub rule: Rule,
-    /// Whether holes get the depth of the background from stretched quads first.
-    pub quads: bool,
-    /// Where it is worth it, a bit for each cell; empty for everywhere.
-    pub mask: &'m [u32],
-}
-
-impl Inpainting<'_> {
-    /// Push-pull that tells foreground from background by depths of `depth_bits` bits, everywhere.
-    #[must_use]
-    pub const fn for_depth(depth_bits: u32, gamma: Gamma) -> Self {
-        let threshold = edge::threshold_for_depth(depth_bits) >> depth_bits.saturating_sub(DEPTH_BITS);
-        Self { rule: Rule { gamma, threshold }, quads: true, mask: &[] }
-    }
-
-    /// The classic push-pull, which knows no depth.
-    #[must_use]
-    pub const fn classic() -> Self {
-        Self { rule: Rule { gamma: Gamma::Zero, threshold: u32::MAX }, quads: false, mask: &[] }
     }
 }
 
@@ -137,36 +107,30 @@ impl<'p, F: Format> Controller<'p, F> {
         self.frame = self.frame.wrapping_add(1);
     }
 
-    /// Fills what the last step uncovered, by push-pull: how many cells. The step must have been made with `settings`, whose fill_mode is
-    /// [`FillMode::Extend`]; with any other one there may be nothing to fill.
+    /// Fills what the last step uncovered, by push-pull: how many cells. The step must have been made with `settings`, whose
+    /// fill mode is [`FillMode::Extend`]; with any other one there may be nothing to fill.
     ///
-    /// Of a pyramid of another size than the map's, only what lies within both is filled.
-    pub fn inpaint<V: Filling>(
-        &mut self,
-        settings: &Settings,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, V>,
-    ) -> u32 {
+    /// Of push-pull for another size than the map's, only what lies within both is filled.
+    pub fn inpaint(&mut self, settings: &Settings, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
         self.lay_background(settings, inpainting);
-        V::push_pull(&mut self.front, inpainting, pyramid)
+        F::push_pull(&mut self.front, inpainting, push_pull)
     }
 
-    /// Fills what the last step uncovered by metamers: as [`Self::inpaint`], with a texture. Of `recipe` the rule and the age are
-    /// not asked: those of `inpainting` count, and the frame counter, which [`Self::set_frame`] sets to 0 with an update.
+    /// Fills what the last step uncovered by metamers: as [`Self::inpaint`], with a texture. How long the picture has moved is
+    /// the frame counter, which [`Self::set_frame`] sets to 0 with an update.
     ///
     /// *Errors:* memory that is too short for the map; then nothing is filled.
     pub fn synthesise(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
-        recipe: &Recipe,
-        scratch: &mut metamer::Scratch<'_>,
+        metamer: &mut Metamer<'_>,
     ) -> Result<u32, SetupError> {
         self.lay_background(settings, inpainting);
-        let recipe = Recipe { rule: inpainting.rule, age: self.frame, ..*recipe };
-        F::metamers(&mut self.front, inpainting, scratch, &recipe)
+        F::metamers(&mut self.front, inpainting, metamer, self.frame)
     }
 
+    /// Gives the holes the depth of the background, where that is asked for.
     fn lay_background(&mut self, settings: &Settings, inpainting: &Inpainting<'_>) {
         if inpainting.quads {
             let frame = self.frame.wrapping_sub(1);
