@@ -6,7 +6,7 @@
 //! runs.
 
 #[cfg(feature = "check")]
-mod check;
+pub(crate) mod check;
 mod fill;
 mod narrow;
 pub mod rolling;
@@ -18,11 +18,8 @@ use crate::format::rounding::Rounding;
 use crate::format::{Dynamic, Format, Profile, Static};
 use crate::frame::fill::Around;
 use crate::frame::tally::Tally;
-use crate::frame::{self, Inpainting, Scratch, Settings, reference};
-use crate::inpaint::metamer::{self, Recipe};
-use crate::inpaint::paint::{Moving, Tint};
-use crate::inpaint::pyramid::Pyramid;
-use crate::inpaint::{map, quads};
+use crate::frame::{self, Scratch, Settings, reference};
+use crate::inpaint::{Inpainting, Metamer, PushPull, map, quads};
 use crate::layers::{self, Layers};
 use crate::map::Galpixmap;
 use rolling::Rolling;
@@ -150,21 +147,16 @@ passes! {
         layers::make::<Self, true>;
     fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
     fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
-    fn push_pull_tint(
+    fn push_pull(
         map: &mut Galpixmap<'_, Self>,
         inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, Tint>,
-    ) -> u32 = map::push_pull;
-    fn push_pull_moving(
-        map: &mut Galpixmap<'_, Self>,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, Moving>,
+        push_pull: &mut PushPull<'_>,
     ) -> u32 = map::push_pull;
     fn metamers(
         map: &mut Galpixmap<'_, Self>,
         inpainting: &Inpainting<'_>,
-        scratch: &mut metamer::Scratch<'_>,
-        recipe: &Recipe,
+        metamer: &mut Metamer<'_>,
+        age: u32,
     ) -> Result<u32, SetupError> = map::metamers;
     fn lay_background(
         before: &Galpixmap<'_, Self>,

@@ -24,9 +24,8 @@ use crate::format::record::Record;
 use crate::frame::edge;
 use crate::frame::step::thresholds;
 use crate::frame::tally::Tally;
-use crate::frame::{Inpainting, Scratch, Settings};
-use crate::inpaint::map::Filling;
-use crate::inpaint::pyramid::Pyramid;
+use crate::frame::{Scratch, Settings};
+use crate::inpaint::{Inpainting, PushPull};
 use crate::map::Galpixmap;
 
 /// Returns the largest number of rows that a galpixel moves in a frame.
@@ -141,8 +140,8 @@ impl<'p, F: Format> Rolling<'p, F> {
     ///
     /// The result is that of [`crate::Controller::inpaint`] without quads, bit by bit. [`Inpainting::quads`] is
     /// ignored, because the map before no longer exists; holes keep the depth that the fill mode gave them.
-    pub fn inpaint<V: Filling>(&mut self, inpainting: &Inpainting<'_>, pyramid: &mut Pyramid<'_, V>) -> u32 {
-        V::push_pull(&mut self.map, inpainting, pyramid)
+    pub fn inpaint(&mut self, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
+        F::push_pull(&mut self.map, inpainting, push_pull)
     }
 
     /// Makes row `y` of the window empty, if there is such a row.

@@ -11,11 +11,7 @@ use crate::error::SetupError;
 use crate::fast;
 use crate::format::Format;
 use crate::format::rounding::Rounding;
-use crate::inpaint::map::Filling;
-use crate::inpaint::metamer::{self, Recipe};
-use crate::inpaint::push_pull::Rule;
-use crate::inpaint::pyramid::{DEPTH_BITS, Pyramid};
-use crate::inpaint::validity::Gamma;
+use crate::inpaint::{Inpainting, Metamer, PushPull};
 use crate::map::Galpixmap;
 use fill::{Around, FillMode};
 use tally::Tally;
@@ -46,32 +42,6 @@ impl Settings {
             edge_threshold: edge::threshold_for_depth(depth_bits),
             reach: 1,
         }
-    }
-}
-
-/// How just-unobscured cells are inpainted after a frame, see [`crate::inpaint`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Inpainting<'m> {
-    /// How coarser levels contribute, and which depths count as foreground.
-    pub rule: Rule,
-    /// Whether holes first get the depth of the background from stretched quads.
-    pub quads: bool,
-    /// Where to inpaint: a bit for each cell, or empty for everywhere.
-    pub mask: &'m [u32],
-}
-
-impl Inpainting<'_> {
-    /// Returns push-pull everywhere, which separates foreground and background by depths of `depth_bits` bits.
-    #[must_use]
-    pub const fn for_depth(depth_bits: u32, gamma: Gamma) -> Self {
-        let threshold = edge::threshold_for_depth(depth_bits) >> depth_bits.saturating_sub(DEPTH_BITS);
-        Self { rule: Rule { gamma, threshold }, quads: true, mask: &[] }
-    }
-
-    /// Returns the classic push-pull everywhere, which ignores depth.
-    #[must_use]
-    pub const fn classic() -> Self {
-        Self { rule: Rule { gamma: Gamma::Zero, threshold: u32::MAX }, quads: false, mask: &[] }
     }
 }
 
@@ -146,32 +116,24 @@ impl<'p, F: Format> Controller<'p, F> {
     /// Inpaints the cells that the last step unobscured, by push-pull; returns how many. `settings` must be those of
     /// the last step, with [`FillMode::Extend`]; with other fill modes there may be no cells to inpaint.
     ///
-    /// If the sizes of pyramid and map differ, only the cells within both are inpainted.
-    pub fn inpaint<V: Filling>(
-        &mut self,
-        settings: &Settings,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, V>,
-    ) -> u32 {
+    /// If the sizes of push-pull and map differ, only the cells within both are inpainted.
+    pub fn inpaint(&mut self, settings: &Settings, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
         self.lay_background(settings, inpainting);
-        V::push_pull(&mut self.front, inpainting, pyramid)
+        F::push_pull(&mut self.front, inpainting, push_pull)
     }
 
-    /// Inpaints the cells that the last step unobscured by metamers: as [`Self::inpaint`], with a texture. The rule and
-    /// the age of `recipe` are ignored: the rule is that of `inpainting`, and the age is the frame counter, which
-    /// should be set to 0 with each update, see [`Self::set_frame`].
+    /// Inpaints the cells that the last step unobscured by metamers: as [`Self::inpaint`], with a texture. How long the
+    /// picture has moved is the frame counter, which should be set to 0 with each update, see [`Self::set_frame`].
     ///
     /// *Errors:* a scratch buffer that is too short for the map; then no cell is changed.
     pub fn synthesise(
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
-        recipe: &Recipe,
-        scratch: &mut metamer::Scratch<'_>,
+        metamer: &mut Metamer<'_>,
     ) -> Result<u32, SetupError> {
         self.lay_background(settings, inpainting);
-        let recipe = Recipe { rule: inpainting.rule, age: self.frame, ..*recipe };
-        F::metamers(&mut self.front, inpainting, scratch, &recipe)
+        F::metamers(&mut self.front, inpainting, metamer, self.frame)
     }
 
     /// Gives the holes of the last step the depth of the background, if `inpainting` says so.

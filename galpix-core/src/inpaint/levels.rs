@@ -3,6 +3,8 @@
 //! Level 0 is the picture. Each level has half the columns and rows of the one below, rounded up, down to a single cell: so
 //! any size has a pyramid. The levels from 1 on follow each other in one piece of memory.
 
+use crate::error::SetupError;
+
 /// The most levels above a picture: sides are at most 2^15.
 pub const MOST: usize = 15;
 
@@ -26,7 +28,7 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// Those of a picture of `width` x `height` cells, each 1 to 32768.
+    /// Returns the levels of a picture of `width` x `height` cells, each 1 to 32768.
     #[must_use]
     pub const fn new(width: u32, height: u32) -> Self {
         let mut levels = [Level { width, height, start: 0 }; MOST + 1];
@@ -40,30 +42,34 @@ impl Levels {
         Self { levels, top: level as u32, cells: start }
     }
 
-    /// The number of the topmost level.
+    /// Returns the levels of a picture of any size.
+    ///
+    /// *Errors:* a side of 0 or over 32768.
+    pub const fn checked(width: u32, height: u32) -> Result<Self, SetupError> {
+        if width == 0 || height == 0 || width > 1 << MOST || height > 1 << MOST {
+            return Err(SetupError::Size { width, height });
+        }
+        Ok(Self::new(width, height))
+    }
+
+    /// Returns the number of the topmost level.
     #[must_use]
     pub const fn top(&self) -> u32 {
         self.top
     }
 
-    /// Cells of the levels from 1 on.
+    /// Returns how many cells the levels from 1 on have.
     #[must_use]
     pub const fn cells(&self) -> usize {
         self.cells as usize
     }
 
-    /// A level; of those above the topmost one, one without cells.
+    /// Returns a level; of those above the topmost one, one without cells.
     #[inline(always)]
     #[must_use]
     pub fn level(&self, level: u32) -> Level {
         self.levels.get(level as usize).copied().unwrap_or_default()
     }
-}
-
-/// Cells of memory that the pyramid of a picture of `width` x `height` cells needs.
-#[must_use]
-pub const fn cells(width: u32, height: u32) -> usize {
-    Levels::new(width, height).cells()
 }
 
 #[cfg(test)]
@@ -86,6 +92,6 @@ mod tests {
             assert_eq!(levels.cells(), start as usize);
         }
         assert_eq!(Levels::new(1, 1).cells(), 0);
-        assert_eq!(cells(128, 64), 2048 + 512 + 128 + 32 + 8 + 2 + 1);
+        assert_eq!(Levels::new(128, 64).cells(), 2048 + 512 + 128 + 32 + 8 + 2 + 1);
     }
 }

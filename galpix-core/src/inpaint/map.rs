@@ -1,27 +1,34 @@
-//! A galpixmap as a picture with holes.
+//! A galpixmap as a picture with holes, and how its holes are filled.
 
 use core::marker::PhantomData;
 
+use super::kernel::{Known, each};
 use super::mean::tie;
-use super::metamer::{self, Recipe};
+use super::metamer::Metamer;
+#[cfg(feature = "check")]
+use super::metamer::reference::metamers as metamers_by_reference;
+use super::metamer::tone::Tone;
 use super::paint::{Moving, Tint};
-use super::push_pull::{Picture, RUN, Value, each, sparse};
-use super::pyramid::{DEPTH_BITS, Known, Pyramid};
-use super::tone::Tone;
+use super::push_pull::{Holed, Motion, PushPull, RUN};
+use super::pyramid::{DEPTH_BITS, Stored};
+#[cfg(feature = "check")]
+use super::reference;
+use super::settings::Inpainting;
 use super::validity::FULL;
 use crate::error::SetupError;
+#[cfg(feature = "check")]
+use crate::fast::check;
 use crate::format::Format;
 use crate::format::colour::Colour;
 use crate::format::record::Words;
-use crate::frame::Inpainting;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
 /// Cells that are looked at once.
-pub(super) const LOOK: u32 = 32;
+const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
-pub trait OfGalpixel: Value {
+pub trait OfGalpixel: Stored {
     /// Returns what a cell of this colour holds.
     fn of(format: &Colour, colour: u32, cell: u32) -> Self;
 
@@ -29,17 +36,7 @@ pub trait OfGalpixel: Value {
     fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words;
 }
 
-/// What push-pull fills in.
-pub trait Filling: OfGalpixel {
-    /// Fills the holes of a map, whose depth is the one that they are to be filled at; how many were filled.
-    fn push_pull<F: Format>(
-        map: &mut Galpixmap<'_, F>,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, Self>,
-    ) -> u32;
-}
-
-/// The colour alone: the motion stays the one that the fill ladder gave.
+/// The colour alone: the motion stays the one that the fill mode gave.
 impl OfGalpixel for Tint {
     #[inline(always)]
     fn of(format: &Colour, colour: u32, _: u32) -> Self {
@@ -50,16 +47,6 @@ impl OfGalpixel for Tint {
     fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, mut words: Words) -> Words {
         map.record().colour().set(&mut words, self.colour(map.record().colour_format()));
         words
-    }
-}
-
-impl Filling for Tint {
-    fn push_pull<F: Format>(
-        map: &mut Galpixmap<'_, F>,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, Self>,
-    ) -> u32 {
-        F::push_pull_tint(map, inpainting, pyramid)
     }
 }
 
@@ -76,36 +63,54 @@ impl OfGalpixel for Moving {
     }
 }
 
-impl Filling for Moving {
-    fn push_pull<F: Format>(
-        map: &mut Galpixmap<'_, F>,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, Self>,
-    ) -> u32 {
-        F::push_pull_moving(map, inpainting, pyramid)
+/// Fills the holes of a map by push-pull: how many were filled.
+pub(crate) fn push_pull<F: Format>(
+    map: &mut Galpixmap<'_, F>,
+    inpainting: &Inpainting<'_>,
+    push_pull: &mut PushPull<'_>,
+) -> u32 {
+    match push_pull.motion() {
+        Motion::Kept => fill::<F, Tint>(map, inpainting, push_pull),
+        Motion::Inpainted => fill::<F, Moving>(map, inpainting, push_pull),
     }
 }
 
-/// Fills the holes of a map by push-pull.
-pub(crate) fn push_pull<F: Format, V: OfGalpixel>(
+fn fill<F: Format, V: OfGalpixel>(
     map: &mut Galpixmap<'_, F>,
     inpainting: &Inpainting<'_>,
-    pyramid: &mut Pyramid<'_, V>,
+    push_pull: &mut PushPull<'_>,
 ) -> u32 {
-    sparse(&mut Uncovered::<F, V>::new(map, inpainting.mask), pyramid, &inpainting.rule)
+    #[cfg(feature = "check")]
+    let expected = check::on_copy(map, |copy| {
+        reference::push_pull(&mut Uncovered::<F, V>::new(copy, inpainting.mask), push_pull.levels(), inpainting)
+    });
+    let filled = push_pull.fill(&mut Uncovered::<F, V>::new(map, inpainting.mask), inpainting);
+    #[cfg(feature = "check")]
+    assert!((check::words(map), filled) == expected, "push-pull of a map: {inpainting:?}");
+    filled
 }
 
-/// Fills the holes of a map by metamers.
+/// Fills the holes of a map by metamers, `age` frames after it was updated: how many were filled.
+///
+/// *Errors:* memory that is too short for the map; then nothing is filled.
 pub(crate) fn metamers<F: Format>(
     map: &mut Galpixmap<'_, F>,
     inpainting: &Inpainting<'_>,
-    scratch: &mut metamer::Scratch<'_>,
-    recipe: &Recipe,
+    metamer: &mut Metamer<'_>,
+    age: u32,
 ) -> Result<u32, SetupError> {
-    metamer::sparse(&mut Uncovered::<F, Tone>::new(map, inpainting.mask), scratch, recipe)
+    #[cfg(feature = "check")]
+    let expected = check::on_copy(map, |copy| {
+        let mut scene = Uncovered::<F, Tone>::new(copy, inpainting.mask);
+        metamers_by_reference(&mut scene, inpainting, metamer.recipe(), age)
+    });
+    let filled = metamer.fill(&mut Uncovered::<F, Tone>::new(map, inpainting.mask), inpainting, age)?;
+    #[cfg(feature = "check")]
+    assert!((check::words(map), filled) == expected, "metamers in a map: {inpainting:?}");
+    Ok(filled)
 }
 
-/// The words of a galpixel with class and depth of the hole that held `words`.
+/// Returns the words of a galpixel with class and depth of the hole that held `words`.
 #[inline(always)]
 pub(super) fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: Words) -> Words {
     let record = map.record();
@@ -126,13 +131,13 @@ pub struct Uncovered<'m, 'p, F, V> {
 }
 
 impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
-    /// The holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for all
-    /// of them, and beyond the end of one no hole is filled.
+    /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for
+    /// all of them, and beyond the end of one no hole is filled.
     pub const fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
         Self { map, mask, value: PhantomData }
     }
 
-    /// What is known of a cell with this class and depth.
+    /// Returns what is known of a cell with this class and depth.
     #[inline(always)]
     fn known_of(&self, cell: u32, key: u32) -> Known<V> {
         let bits = u32::from(self.map.record().depth().bits);
@@ -153,19 +158,40 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
     }
 
     #[inline(always)]
-    pub(super) fn is_asked_for(&self, cell: u32) -> bool {
-        self.mask.is_empty()
-            || self.mask.get((cell / u32::BITS) as usize).is_some_and(|word| word >> (cell % u32::BITS) & 1 != 0)
+    fn is_to_be_filled(&self, cell: u32) -> bool {
+        let in_mask =
+            || self.mask.get((cell / u32::BITS) as usize).is_some_and(|word| word >> (cell % u32::BITS) & 1 != 0);
+        self.map.class(cell) == Class::JustUnobscured && (self.mask.is_empty() || in_mask())
+    }
+
+    /// Calls `hole` with column, row and cell of each hole that is to be filled, row by row.
+    #[inline(always)]
+    pub(super) fn each_hole(&mut self, mut hole: impl FnMut(&mut Self, u32, u32, u32)) {
+        let grid = *self.map.grid();
+        for (y, &row) in (0..).zip(grid.starts()) {
+            let mut x = 0;
+            while x < grid.width() {
+                let run = (grid.width() - x).min(LOOK);
+                if self.map.any_just_unobscured(row + x, run) {
+                    for x in x..x + run {
+                        if self.is_to_be_filled(row + x) {
+                            hole(self, x, y, row + x);
+                        }
+                    }
+                }
+                x += run;
+            }
+        }
     }
 }
 
-/// The depth of a galpixel as a pyramid has it.
+/// Returns the depth of a galpixel as a pyramid has it.
 #[inline(always)]
 pub(super) fn pyramid_depth(depth: u32, bits: u32) -> u32 {
     depth >> bits.saturating_sub(DEPTH_BITS)
 }
 
-impl<F: Format, V: OfGalpixel> Picture for Uncovered<'_, '_, F, V> {
+impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
     type Value = V;
 
     fn size(&self) -> [u32; 2] {
@@ -245,28 +271,15 @@ impl<F: Format, V: OfGalpixel> Picture for Uncovered<'_, '_, F, V> {
     }
 
     fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<V>) -> u32 {
-        let grid = *self.map.grid();
         let mut filled = 0;
-        for (y, &row) in (0..).zip(grid.starts()) {
-            let mut x = 0;
-            while x < grid.width() {
-                let run = (grid.width() - x).min(LOOK);
-                if self.map.any_just_unobscured(row + x, run) {
-                    for x in x..x + run {
-                        let cell = row + x;
-                        if self.map.class(cell) != Class::JustUnobscured || !self.is_asked_for(cell) {
-                            continue;
-                        }
-                        let Some(value) = value(self, x, y) else { continue };
-                        let words = self.map.words_at(cell).unwrap_or_default();
-                        let words = value.put_into(self.map, words);
-                        self.map.put(cell, &words);
-                        filled += 1;
-                    }
-                }
-                x += run;
+        self.each_hole(|uncovered, x, y, cell| {
+            if let Some(value) = value(uncovered, x, y) {
+                let words = uncovered.map.words_at(cell).unwrap_or_default();
+                let words = value.put_into(uncovered.map, words);
+                uncovered.map.put(cell, &words);
+                filled += 1;
             }
-        }
+        });
         filled
     }
 }

@@ -8,7 +8,7 @@
 //! brighter nor darker from level to level.
 
 /// The largest sum of weights.
-pub const MOST: u32 = 64;
+const MOST: u32 = 64;
 
 /// Sums that [`divided`] takes are below 2^31, and those with a short reciprocal below 2^16 + 32.
 const SHIFT: u32 = 37;
@@ -35,7 +35,7 @@ const SHORT_RECIPROCALS: [u32; MOST as usize + 1] = {
     table
 };
 
-/// `sum / weight` to the nearest; halves go up if `tie` is 1 and down if it is 0. `weight` 1 to 64, `sum` below 2^31 - 64.
+/// Returns `sum / weight` to the nearest; halves go up if `tie` is 1 and down if it is 0. `weight` 1 to 64, `sum` below 2^31 - 64.
 #[inline(always)]
 #[must_use]
 pub fn divided(sum: u32, weight: u32, tie: u32) -> u32 {
@@ -43,7 +43,7 @@ pub fn divided(sum: u32, weight: u32, tie: u32) -> u32 {
     ((u64::from(sum + bias(weight, tie)) * reciprocal) >> SHIFT) as u32
 }
 
-/// The same for a sum of at most 64 times 1023: three channels of ten bits with one look at the table.
+/// Returns the same for a sum of at most 64 times 1023: three channels of ten bits with one look at the table.
 #[inline(always)]
 #[must_use]
 pub fn divided3(sums: [u32; 3], weight: u32, tie: u32) -> [u32; 3] {
@@ -54,7 +54,7 @@ pub fn divided3(sums: [u32; 3], weight: u32, tie: u32) -> [u32; 3] {
     [quotient(first), quotient(second), quotient(third)]
 }
 
-/// What is added before the fraction is dropped.
+/// Returns what is added before the fraction is dropped.
 #[inline(always)]
 const fn bias(weight: u32, tie: u32) -> u32 {
     (weight.wrapping_sub(1).wrapping_add(tie)) >> 1
@@ -67,7 +67,7 @@ pub const fn tie(x: u32, y: u32, level: u32) -> u32 {
     (x ^ y ^ level) & 1
 }
 
-/// The mean of four signed numbers between -2^23 and 2^23, by weights whose sum is 1 to 64: to the nearest, ties as in
+/// Returns the mean of four signed numbers between -2^23 and 2^23, by weights whose sum is 1 to 64: to the nearest, ties as in
 /// [`divided`]. Never outside of the range of those with a weight.
 #[inline(always)]
 #[must_use]

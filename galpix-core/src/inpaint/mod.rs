@@ -1,37 +1,55 @@
 //! Stage 5: what is shown where nothing is known, from what is known around it.
 //!
-//! After a frame of fill_mode [`crate::frame::fill::FillMode::Extend`] the cells of class [`crate::map::galpixel::Class::JustUnobscured`] are
-//! exactly those that this frame uncovered: the *holes* of this stage. What it puts into them they carry with them as debris,
-//! so that an uncovered area is filled once, when it opens, and moves on with the picture. Fully-fledged galpixels are
-//! *known*; debris is not, so that nothing is made from what was made up.
+//! After a frame of fill mode [`Extend`](crate::FillMode::Extend) the cells of class
+//! [`JustUnobscured`](crate::Class::JustUnobscured) are exactly those that this frame uncovered: the *holes* of this stage. What
+//! it puts into them they carry with them as debris, so that an uncovered area is filled once, when it opens, and moves on with
+//! the picture. Fully-fledged galpixels are *known*; debris is not, so that nothing is made from what was made up.
 //!
-//! 1. [`quads`]: which depth the background has in the holes
-//! 2. [`push_pull`]: known cells are pulled into a pyramid, what is missing is pushed down from it; foreground keeps out
-//! 3. [`metamer`], where a texture is wanted: push-pull of tones, and of the moments of what [`steerable`] bands respond to, and
-//!    [`noise`] of these moments that moves with the picture
+//! 1. Stretched quads, where [`Inpainting::quads`] asks for them, give the holes the depth of the background.
+//! 2. [`PushPull`] pulls known cells into a pyramid and pushes what is missing down from it; foreground keeps out.
+//! 3. [`Metamer`], where a texture is wanted, adds to the same push-pull noise of the mean and the deviation that the bands of
+//!    each level have around the hole. The noise moves with the picture.
 //!
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
+//!
+//! ```
+//! use galpix_core::Colour;
+//! use galpix_core::inpaint::{Inpainting, Motion, Picture, PushPull};
+//!
+//! // A row of four pixels. The two in the middle are holes.
+//! let (mut colours, known) = ([0x10_0000, 0, 0, 0x30_0000], [0b1001]);
+//! let mut memory = [0; PushPull::words(4, 1, Motion::Kept)];
+//! let mut push_pull = PushPull::new(4, 1, Motion::Kept, &mut memory)?;
+//! let mut picture = Picture::new(4, 1, Colour::RGB888, &mut colours, &known)?;
+//! assert_eq!(push_pull.fill_picture(&mut picture, &Inpainting::classic()), 2);
+//! assert_eq!(colours, [0x10_0000, 0x18_0000, 0x28_0000, 0x30_0000]);
+//! # Ok::<(), galpix_core::SetupError>(())
+//! ```
 
-pub mod below;
-mod block;
-pub mod demand;
-pub mod features;
-pub mod levels;
-pub mod map;
-pub mod mean;
-pub mod metamer;
-pub mod needs;
-pub mod noise;
-pub mod paint;
-pub mod picture;
-pub mod push_pull;
-pub mod pyramid;
-pub mod quads;
-pub mod root;
-pub mod statistics;
-pub mod steerable;
-pub mod tile;
-pub mod tone;
-pub mod validity;
-pub mod ycbcr;
+mod kernel;
+mod lazy;
+mod levels;
+pub(crate) mod map;
+mod mean;
+mod metamer;
+mod paint;
+mod picture;
+mod push_pull;
+mod pyramid;
+pub(crate) mod quads;
+#[cfg(any(test, feature = "check"))]
+mod reference;
+pub(crate) mod root;
+mod settings;
+mod validity;
+
+#[cfg(test)]
+mod tests;
+
+pub use metamer::noise::Scale;
+pub use metamer::{Metamer, MetamerWorkspace, Recipe};
+pub use picture::Picture;
+pub use push_pull::{Motion, PushPull};
+pub use settings::Inpainting;
+pub use validity::Gamma;

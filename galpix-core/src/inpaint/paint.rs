@@ -1,24 +1,19 @@
 //! What push-pull takes means of: colours, and the motion that goes with them.
 
+use super::kernel::{Value, each};
 use super::mean::divided3;
-use super::push_pull::{Value, each};
+use super::pyramid::Stored;
 use crate::format::colour::Colour;
 
-/// Bits of a channel in a pyramid: eight, and two of a fraction.
+/// Bits of a channel in a pyramid: eight, and two of a fraction. Narrower channels have more bits of a fraction.
 const CHANNEL_BITS: u32 = 10;
-
-/// Fraction bits of a channel of eight bits. Narrower channels have more of them.
-pub const FRACTION_BITS: u32 = CHANNEL_BITS - 8;
 
 /// Up to three channels of ten bits, the first one highest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Tint(u32);
 
 impl Tint {
-    /// No light in any channel.
-    pub const BLACK: Self = Self(0);
-
-    /// The channels of a stored colour, each moved up to ten bits.
+    /// Returns the channels of a stored colour, each moved up to ten bits.
     #[inline(always)]
     #[must_use]
     pub fn of(format: &Colour, colour: u32) -> Self {
@@ -28,7 +23,7 @@ impl Tint {
         }))
     }
 
-    /// The stored colour: each channel to the nearest, halves upwards.
+    /// Returns the stored colour: each channel to the nearest, halves upwards.
     #[inline(always)]
     #[must_use]
     pub fn colour(self, format: &Colour) -> u32 {
@@ -42,9 +37,8 @@ impl Tint {
         })
     }
 
-    /// The three channels.
-    #[inline(always)]
-    #[must_use]
+    /// Returns the three channels.
+    #[cfg(test)]
     pub const fn channels(self) -> [u32; 3] {
         let mask = (1 << CHANNEL_BITS) - 1;
         [self.0 >> (2 * CHANNEL_BITS), self.0 >> CHANNEL_BITS & mask, self.0 & mask]
@@ -65,10 +59,31 @@ const OUTER_ONES: u32 = 0x0010_0001;
 /// The second channel, moved down.
 const MIDDLE: u32 = 0x3ff;
 
-/// The first and the third channel moved apart: sums by weights up to 64 have sixteen bits each.
+/// Moves the first and the third channel apart: sums by weights up to 64 have sixteen bits each.
 #[inline(always)]
 const fn apart(tint: u32) -> u32 {
     tint >> 4 & 0x03ff_0000 | tint & 0x3ff
+}
+
+impl Stored for Tint {
+    type Cell = [u32; 2];
+
+    const WORDS: usize = 2;
+
+    #[inline(always)]
+    fn cells(memory: &mut [u32]) -> &mut [Self::Cell] {
+        memory.as_chunks_mut().0
+    }
+
+    #[inline(always)]
+    fn encode(self, meta: u32) -> Self::Cell {
+        [meta, self.0]
+    }
+
+    #[inline(always)]
+    fn decode(&[meta, tint]: &Self::Cell) -> (u32, Self) {
+        (meta, Self(tint))
+    }
 }
 
 impl Value for Tint {
@@ -116,9 +131,25 @@ pub struct Moving {
     pub source: u32,
 }
 
-impl Moving {
-    /// Black, from the first cell: what the memory of a pyramid is set up with.
-    pub const BLACK: Self = Self { tint: Tint::BLACK, source: 0 };
+impl Stored for Moving {
+    type Cell = [u32; 3];
+
+    const WORDS: usize = 3;
+
+    #[inline(always)]
+    fn cells(memory: &mut [u32]) -> &mut [Self::Cell] {
+        memory.as_chunks_mut().0
+    }
+
+    #[inline(always)]
+    fn encode(self, meta: u32) -> Self::Cell {
+        [meta, self.tint.0, self.source]
+    }
+
+    #[inline(always)]
+    fn decode(&[meta, tint, source]: &Self::Cell) -> (u32, Self) {
+        (meta, Self { tint: Tint(tint), source })
+    }
 }
 
 impl Value for Moving {

@@ -1,30 +1,37 @@
 //! A plain picture with a mask, and a depth where there is one: for what is no galpixmap.
 
+#[cfg(feature = "check")]
+extern crate std;
+
+use super::kernel::{Known, Value};
 use super::mean::tie;
 use super::paint::Tint;
-use super::push_pull::{Picture, RUN, Value};
-use super::pyramid::Known;
+use super::push_pull::{Holed, RUN};
 use super::validity::FULL;
 use crate::error::SetupError;
 use crate::format::colour::Colour;
 
-/// Colours, a bit for each of them that is known, and depths.
+/// A plain picture with holes: colours, a bit for each of them that is known, and depths.
 #[derive(Debug)]
-pub struct Masked<'p> {
+pub struct Picture<'p> {
     width: u32,
     height: u32,
+    format: Colour,
     colours: &'p mut [u32],
     known: &'p [u32],
     depths: &'p [u32],
-    format: Colour,
 }
 
 /// Cells of a word of a mask.
 const WORD: u32 = u32::BITS;
 
-impl<'p> Masked<'p> {
-    /// `width` x `height` stored colours, row by row; cell `c` is known if bit `c mod 32` of word `c / 32` of `known` is set.
-    /// `depths` below 2^25, smaller is nearer, of the holes too; empty for a picture without depth.
+fn enough(plane: &'static str, have: usize, need: usize) -> Result<(), SetupError> {
+    if have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
+}
+
+impl<'p> Picture<'p> {
+    /// Takes a picture of `width` x `height` stored colours, row by row, without depth. Cell `c` is known if bit `c mod 32` of
+    /// word `c / 32` of `known` is set, and else a hole.
     ///
     /// *Errors:* a side of 0 or over 32768, a slice that is too short.
     pub fn new(
@@ -33,31 +40,46 @@ impl<'p> Masked<'p> {
         format: Colour,
         colours: &'p mut [u32],
         known: &'p [u32],
-        depths: &'p [u32],
     ) -> Result<Self, SetupError> {
         if width == 0 || height == 0 || width > 1 << 15 || height > 1 << 15 {
             return Err(SetupError::Size { width, height });
         }
         let cells = (width * height) as usize;
-        let enough = |plane, have, need| {
-            if have >= need { Ok(()) } else { Err(SetupError::TooShort { plane, need, have }) }
-        };
         enough("picture", colours.len(), cells)?;
         enough("mask", known.len(), cells.div_ceil(WORD as usize))?;
-        if !depths.is_empty() {
-            enough("depth", depths.len(), cells)?;
-        }
-        Ok(Self { width, height, colours, known, depths, format })
+        Ok(Self { width, height, format, colours, known, depths: &[] })
     }
 
-    /// The bits of the mask from `cell` on, up to the end of its word.
+    /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer.
+    ///
+    /// *Errors:* a slice that is too short.
+    pub fn with_depths(self, depths: &'p [u32]) -> Result<Self, SetupError> {
+        enough("depth", depths.len(), (self.width * self.height) as usize)?;
+        Ok(Self { depths, ..self })
+    }
+
+    /// Returns the bits of the mask from `cell` on, up to the end of its word.
     #[inline(always)]
     fn bits(&self, cell: u32) -> u32 {
         self.known.get((cell / WORD) as usize).map_or(0, |word| word >> (cell % WORD))
     }
+
+    /// Returns the colours.
+    #[cfg(feature = "check")]
+    pub(super) const fn colours(&self) -> &[u32] {
+        self.colours
+    }
+
+    /// Runs a pass over a copy of the picture; returns the colours that the copy has afterwards, and what the pass returned.
+    #[cfg(feature = "check")]
+    pub(super) fn on_copy<R>(&self, pass: impl FnOnce(&mut Picture<'_>) -> R) -> (std::vec::Vec<u32>, R) {
+        let mut colours = self.colours.to_vec();
+        let result = pass(&mut Picture { colours: &mut colours, ..*self });
+        (colours, result)
+    }
 }
 
-impl Picture for Masked<'_> {
+impl Holed for Picture<'_> {
     type Value = Tint;
 
     fn size(&self) -> [u32; 2] {

@@ -18,20 +18,18 @@ use crate::map::galpixel::Class;
 
 /// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
 /// what lies between them; without a limit a hostile map would take for ever.
-pub const LARGEST: i32 = 64;
+const LARGEST: i32 = 64;
 
-/// A depth of `bits` bits in the re-partitioned range of `bits + 1` bits, equation (1): known surfaces in the nearer half, stretched
-/// quads in the farther one and turned round, so that the smaller number is what is seen.
+/// Returns a depth of `bits` bits in the re-partitioned range of `bits + 1` bits, equation (1): known surfaces in the nearer
+/// half, stretched quads in the farther one and turned round, so that the smaller number is what is seen.
 #[inline(always)]
-#[must_use]
-pub const fn partitioned(depth: u32, stretched: bool, bits: u32) -> u32 {
+const fn partitioned(depth: u32, stretched: bool, bits: u32) -> u32 {
     if stretched { (2 << bits) - 1 - depth } else { depth }
 }
 
-/// The depth that [`partitioned`] was given, and whether it was a stretched quad's.
+/// Returns the depth that [`partitioned`] was given, and whether it was a stretched quad's.
 #[inline(always)]
-#[must_use]
-pub const fn unpartitioned(key: u32, bits: u32) -> (u32, bool) {
+const fn unpartitioned(key: u32, bits: u32) -> (u32, bool) {
     if key >> bits == 0 { (key, false) } else { ((2 << bits) - 1 - key, true) }
 }
 
@@ -53,10 +51,10 @@ struct Step<'s, 'p, 'q, F> {
 }
 
 /// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
-/// that the ladder gave them is farther: how often it made one deeper.
+/// that the fill mode gave them is farther; returns how often it made one deeper.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
-pub fn lay_background<F: Format>(
+pub(crate) fn lay_background<F: Format>(
     before: &Galpixmap<'_, F>,
     map: &mut Galpixmap<'_, F>,
     edges: &[u32],
@@ -90,7 +88,8 @@ pub fn lay_background<F: Format>(
 /// Quads beside each other whose columns fit into a word of the edge map.
 const QUADS: u32 = u32::BITS - 1;
 
-/// Which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the map is.
+/// Returns which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the
+/// map is.
 #[inline(always)]
 fn on_edge(edges: &[u32], cell: u32) -> u32 {
     let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
@@ -98,7 +97,7 @@ fn on_edge(edges: &[u32], cell: u32) -> u32 {
     word(at) >> shift | word(at + 1) << 1 << (u32::BITS - 1 - shift)
 }
 
-/// See [`Step::motion`].
+/// Returns [`Step::motion`].
 fn motion(record: &Record) -> Words {
     let mut motion = Words::default();
     let fields = [record.velocity(0), record.velocity(1), record.acceleration(0), record.acceleration(1)];
@@ -146,7 +145,7 @@ impl<F: Format> Step<'_, '_, '_, F> {
         differ == 0
     }
 
-    /// A cell of the map before as a corner; none if it is empty.
+    /// Returns a cell of the map before as a corner; none if it is empty.
     #[inline(always)]
     fn corner(&self, cell: u32, x: u32, y: i32) -> Option<Corner> {
         let words = self.before.words_at(cell)?;
@@ -185,7 +184,7 @@ impl<F: Format> Step<'_, '_, '_, F> {
         changed
     }
 
-    /// What is seen of a stretched quad: the farthest depth of its corners after the step.
+    /// Returns what is seen of a stretched quad: the farthest depth of its corners after the step.
     #[inline(never)]
     fn key(&self, corners: &[Corner; 4]) -> u32 {
         let record = self.before.record();
@@ -197,7 +196,7 @@ impl<F: Format> Step<'_, '_, '_, F> {
         partitioned(farthest, true, record.depth().bits.into())
     }
 
-    /// Gives a hole the depth of a quad that covers it, if that is what is seen: 1 if so.
+    /// Gives a hole the depth of a quad that covers it, if that is what is seen; returns 1 if so.
     #[inline(always)]
     fn deepen(&mut self, cell: u32, (x, y): (i32, i32), key: u32, corners: &[Corner; 4]) -> u32 {
         let record = *self.map.record();

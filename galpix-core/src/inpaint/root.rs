@@ -1,13 +1,13 @@
 //! Square roots of whole numbers, without a division: bit by bit, in as many steps as the root has bits.
 
-/// The largest whole number whose square is not above `value`.
+/// Returns the largest whole number whose square is not above `value`.
 #[inline(always)]
 #[must_use]
 pub const fn floor(value: u32) -> u32 {
     split(value).0
 }
 
-/// The whole number nearest to the square root; there are no ties.
+/// Returns the whole number nearest to the square root; there are no ties.
 #[inline(always)]
 #[must_use]
 pub const fn nearest(value: u32) -> u32 {
@@ -16,7 +16,7 @@ pub const fn nearest(value: u32) -> u32 {
     root + (rest > root) as u32
 }
 
-/// [`nearest`], for some numbers below 2^26 side by side.
+/// Returns [`nearest`] of some numbers below 2^26, side by side.
 #[inline(always)]
 #[must_use]
 pub fn nearest_of<const COUNT: usize>(values: [u32; COUNT]) -> [u32; COUNT] {
@@ -38,7 +38,7 @@ pub fn nearest_of<const COUNT: usize>(values: [u32; COUNT]) -> [u32; COUNT] {
     roots.map(|root| root as u32)
 }
 
-/// Root and rest: `value = root^2 + rest`, `rest <= 2 root`.
+/// Returns root and rest: `value = root^2 + rest`, `rest <= 2 root`.
 #[inline(always)]
 const fn split(value: u32) -> (u32, u32) {
     let (mut root, mut rest) = (0, value);

@@ -37,10 +37,10 @@ const ROOTS: [u8; 64] = {
 };
 
 impl Gamma {
-    /// All of them.
+    /// All powers.
     pub const ALL: [Self; 3] = [Self::Zero, Self::Half, Self::One];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -50,11 +50,11 @@ impl Gamma {
         }
     }
 
-    /// The mean of four validities raised to gamma, from their sum (0 to 64): 0 for 0, else 1 to [`FULL`]. To the nearest
+    /// Raises the mean of four validities to gamma, from their sum (0 to 64): 0 for 0, else 1 to [`FULL`]. To the nearest
     /// sixteenth, halves upwards, but never so far down that what is known is forgotten.
     #[inline(always)]
     #[must_use]
-    pub const fn raised(self, sum: u32) -> u32 {
+    pub(super) const fn raised(self, sum: u32) -> u32 {
         let raised = match self {
             _ if sum == 0 => return 0,
             Self::Zero => FULL,

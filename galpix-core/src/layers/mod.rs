@@ -39,10 +39,8 @@ use crate::error::SetupError;
 use crate::format::Format;
 use crate::frame::edge;
 use crate::frame::tally::Tally;
-use crate::frame::{Controller, Inpainting, Settings, fill_holes, move_on};
-use crate::inpaint::map::Filling;
-use crate::inpaint::metamer::{self, Recipe};
-use crate::inpaint::pyramid::Pyramid;
+use crate::frame::{Controller, Settings, fill_holes, move_on};
+use crate::inpaint::{Inpainting, Metamer, PushPull};
 use crate::map::Galpixmap;
 use shown::Shown;
 
@@ -224,13 +222,8 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
 
     /// Fills by push-pull what the last step uncovered and no layer holds, see [`Controller::inpaint`]. Returns the
     /// number of cells filled.
-    pub fn inpaint<V: Filling>(
-        &mut self,
-        settings: &Settings,
-        inpainting: &Inpainting<'_>,
-        pyramid: &mut Pyramid<'_, V>,
-    ) -> u32 {
-        self.base.inpaint(settings, inpainting, pyramid)
+    pub fn inpaint(&mut self, settings: &Settings, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
+        self.base.inpaint(settings, inpainting, push_pull)
     }
 
     /// Fills by metamers what the last step uncovered and no layer holds, see [`Controller::synthesise`]. Returns the
@@ -241,9 +234,8 @@ impl<'p, 'l, F: Format> Layers<'p, 'l, F> {
         &mut self,
         settings: &Settings,
         inpainting: &Inpainting<'_>,
-        recipe: &Recipe,
-        scratch: &mut metamer::Scratch<'_>,
+        metamer: &mut Metamer<'_>,
     ) -> Result<u32, SetupError> {
-        self.base.synthesise(settings, inpainting, recipe, scratch)
+        self.base.synthesise(settings, inpainting, metamer)
     }
 }

@@ -4,8 +4,10 @@ extern crate std;
 use std::vec;
 use std::vec::Vec;
 
+use super::super::kernel::Known;
+use super::super::push_pull::{self, Holed};
+use super::super::validity::{FULL, Gamma};
 use super::*;
-use crate::inpaint::push_pull;
 
 /// A picture whose holes have a depth, and whose cells all move alike.
 #[derive(Clone)]
@@ -52,7 +54,7 @@ impl Plate {
     }
 }
 
-impl Picture for Plate {
+impl Holed for Plate {
     type Value = Tone;
 
     fn size(&self) -> [u32; 2] {
@@ -65,15 +67,16 @@ impl Picture for Plate {
     }
 
     fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<Tone>) -> u32 {
+        let before = self.clone();
         let mut filled = self.clone();
-        self.holes(|x, y| filled.put(x, y, value(self, x, y).unwrap()));
+        self.each_hole(|x, y| filled.put(x, y, value(&before, x, y).unwrap()));
         *self = filled;
         0
     }
 }
 
 impl Scene for Plate {
-    fn holes(&self, mut hole: impl FnMut(u32, u32)) {
+    fn each_hole(&mut self, mut hole: impl FnMut(u32, u32)) {
         for cell in 0..self.width * self.height {
             if self.holes[cell as usize] {
                 hole(cell % self.width, cell / self.width);
@@ -90,26 +93,41 @@ impl Scene for Plate {
     }
 }
 
-fn filled(
-    plate: &Plate,
-    recipe: &Recipe,
-    run: fn(&mut Plate, &mut Scratch<'_>, &Recipe) -> Result<u32, SetupError>,
-) -> Plate {
-    let mut plate = plate.clone();
-    let count = cells(plate.width, plate.height);
-    let mut scratch = Scratch {
-        tones: &mut vec![Cell::unknown(Tone::default()); count],
-        moments: &mut vec![Cell::unknown(Moments::default()); count],
-        states: [&mut vec![0; state_words(count)], &mut vec![0; state_words(count)]],
-        needs: &mut vec![Default::default(); needs::tiles(plate.width, plate.height, MOST_LEVELS)],
-        workspace: &mut Workspace::new(),
-        noise: &mut noise::Tiles::default(),
-    };
-    let count = run(&mut plate, &mut scratch, recipe).unwrap();
-    // Where nothing at all is known, nothing is filled.
-    let holes = plate.holes.iter().filter(|hole| **hole).count();
-    assert_eq!(count as usize, if plate.known.contains(&true) { holes } else { 0 });
-    plate
+/// What a plate is filled with.
+#[derive(Clone, Copy, Debug)]
+struct Case {
+    gamma: Gamma,
+    recipe: Recipe,
+    age: u32,
+}
+
+impl Case {
+    /// Gamma 1/2, as the paper's.
+    fn of(recipe: Recipe) -> Self {
+        Self { gamma: Gamma::Half, recipe, age: 0 }
+    }
+
+    fn inpainting(&self) -> Inpainting<'static> {
+        Inpainting { gamma: self.gamma, threshold: 8, quads: false, mask: &[] }
+    }
+
+    fn filled(&self, plate: &Plate) -> Plate {
+        let mut plate = plate.clone();
+        let mut memory = vec![u32::MAX; Metamer::words(plate.width, plate.height, self.recipe.levels)];
+        let mut workspace = MetamerWorkspace::new();
+        let mut metamer = Metamer::new(plate.width, plate.height, self.recipe, &mut memory, &mut workspace).unwrap();
+        let count = metamer.fill(&mut plate, &self.inpainting(), self.age).unwrap();
+        // Where nothing at all is known, nothing is filled.
+        let holes = plate.holes.iter().filter(|hole| **hole).count();
+        assert_eq!(count as usize, if plate.known.contains(&true) { holes } else { 0 });
+        plate
+    }
+
+    fn filled_by_reference(&self, plate: &Plate) -> Plate {
+        let mut plate = plate.clone();
+        reference::metamers(&mut plate, &self.inpainting(), &self.recipe, self.age);
+        plate
+    }
 }
 
 fn noise(x: i32, y: i32, layer: u32) -> i32 {
@@ -127,19 +145,18 @@ fn slivers(x: i32, y: i32) -> bool {
     (x + y / 7) % 41 < 4 || (20..30).contains(&x) && (30..47).contains(&y)
 }
 
-fn recipes() -> impl Iterator<Item = Recipe> {
+fn cases() -> impl Iterator<Item = Case> {
     let gammas = Gamma::ALL.into_iter().flat_map(|gamma| (1..=6).map(move |levels| (gamma, levels)));
-    gammas.map(|(gamma, levels)| Recipe {
-        rule: Rule { gamma, threshold: 8 },
-        levels,
-        coloured: levels % 2 == 1,
-        ..Recipe::new(8, 3)
+    gammas.map(|(gamma, levels)| Case {
+        gamma,
+        recipe: Recipe { levels, coloured: levels % 2 == 1, ..Recipe::default() },
+        age: 3,
     })
 }
 
 #[test]
-fn what_is_worked_out_on_demand_has_the_same_bits() {
-    for (width, height) in [(101, 67), (64, 64), (40, 9), (2, 1), (1, 33)] {
+fn what_is_worked_out_lazily_has_the_bits_of_the_reference() {
+    for (width, height) in [(101, 67), (64, 64), (40, 9), (2, 1), (1, 33), (1, 1)] {
         let mut plate = Plate::new(width, height, gravel).with_holes(slivers);
         // A nearer surface beside the slivers, and debris, which is no hole.
         for cell in 0..plate.depths.len() {
@@ -152,16 +169,16 @@ fn what_is_worked_out_on_demand_has_the_same_bits() {
             }
         }
         plate.motion = [3, -1];
-        for recipe in recipes() {
-            let (sparse, dense) = (filled(&plate, &recipe, sparse), filled(&plate, &recipe, dense));
-            assert!(sparse.tones == dense.tones, "{width} x {height}, {recipe:?}");
+        for case in cases() {
+            let (lazy, reference) = (case.filled(&plate), case.filled_by_reference(&plate));
+            assert!(lazy.tones == reference.tones, "{width} x {height}, {case:?}");
         }
     }
 }
 
 #[test]
 fn what_is_known_stays_and_what_lies_in_holes_does_not_matter() {
-    let recipe = Recipe::new(8, 0);
+    let case = Case::of(Recipe::default());
     let plate = Plate::new(90, 60, gravel).with_holes(slivers);
     let mut other = plate.clone();
     for (tone, hole) in other.tones.iter_mut().zip(&plate.holes) {
@@ -169,7 +186,7 @@ fn what_is_known_stays_and_what_lies_in_holes_does_not_matter() {
             tone.channels = [500, -1000, 1000];
         }
     }
-    let (first, second) = (filled(&plate, &recipe, sparse), filled(&other, &recipe, sparse));
+    let (first, second) = (case.filled(&plate), case.filled(&other));
     assert!(first.tones == second.tones);
     for ((before, after), hole) in plate.tones.iter().zip(&first.tones).zip(&plate.holes) {
         assert!(*hole || before == after);
@@ -178,10 +195,10 @@ fn what_is_known_stays_and_what_lies_in_holes_does_not_matter() {
 
 #[test]
 fn an_even_picture_stays_even() {
-    for recipe in recipes() {
+    for case in cases() {
         let plate = Plate::new(80, 50, |_, _| [200, 30, 90]).with_holes(slivers);
-        let after = filled(&plate, &recipe, sparse);
-        assert!(after.tones.iter().all(|tone| tone.channels == plate.tones[0].channels), "{recipe:?}");
+        let after = case.filled(&plate);
+        assert!(after.tones.iter().all(|tone| tone.channels == plate.tones[0].channels), "{case:?}");
     }
 }
 
@@ -194,7 +211,8 @@ fn foreground_lends_no_texture() {
         *depth = if cell % 96 < 48 { 100 } else { 20 };
     }
     let even = plate.tones[0].channels;
-    assert!(filled(&plate, &Recipe::new(8, 0), sparse).hole_tones().iter().all(|tone| tone.channels == even));
+    let filled = Case::of(Recipe::default()).filled(&plate);
+    assert!(filled.hole_tones().iter().all(|tone| tone.channels == even));
 }
 
 /// Mean square of the difference between neighbours in a row, both of them holes: how much of a texture there is.
@@ -220,14 +238,14 @@ fn variance_of(plate: &Plate, channel: usize) -> f64 {
 #[test]
 fn holes_vary_as_what_surrounds_them_does() {
     let truth = Plate::new(160, 120, gravel).with_holes(slivers);
-    let coloured = Recipe { coloured: true, ..Recipe::new(8, 0) };
-    let metamer = filled(&truth, &coloured, sparse);
-    let paper = filled(&truth, &Recipe { noise: Scale::Interval, ..coloured }, sparse);
+    let coloured = Recipe { coloured: true, ..Recipe::default() };
+    let metamer = Case::of(coloured).filled(&truth);
+    let paper = Case::of(Recipe { noise: Scale::Interval, ..coloured }).filled(&truth);
     let mut bare = truth.clone();
-    let count = cells(truth.width, truth.height);
-    let (mut tones, mut states) = (vec![Cell::unknown(Tone::default()); count], vec![0; state_words(count)]);
-    let mut pyramid = Pyramid::new(truth.width, truth.height, &mut tones, &mut states).unwrap();
-    push_pull::sparse(&mut bare, &mut pyramid, &Recipe::new(8, 0).rule);
+    let levels = Levels::new(truth.width, truth.height);
+    let mut memory = vec![0; Pyramid::<Tone>::words(levels.cells())];
+    let mut pyramid = Pyramid::over(levels, &mut memory).unwrap();
+    push_pull::fill(&mut bare, &mut pyramid, &Case::of(coloured).inpainting());
     for channel in 0..3 {
         let ratio = |plate: &Plate| {
             (
@@ -267,8 +285,8 @@ fn noise_moves_with_the_surface_and_not_with_the_screen() {
         let mut plate = Plate::new(192, 96, |x, y| gravel(x - 3 * age, y))
             .with_holes(|x, y| (40..72).contains(&(x - 3 * age)) && (32..64).contains(&y));
         plate.motion = [motion, 0];
-        let recipe = Recipe { levels: 2, ..Recipe::new(8, age as u32) };
-        let after = filled(&plate, &recipe, sparse);
+        let recipe = Recipe { levels: 2, ..Recipe::default() };
+        let after = Case { age: age as u32, ..Case::of(recipe) }.filled(&plate);
         move |x: i32, y: i32| f64::from(after.tones[(y * 192 + x) as usize].channels[0])
     };
     for age in [2, 5, 8] {
@@ -294,10 +312,30 @@ fn noise_moves_with_the_surface_and_not_with_the_screen() {
 
 #[test]
 fn memory_is_as_stated() {
-    let kib = |width, height| bytes(width, height, 4).div_ceil(1024);
+    let kib = |width, height| Metamer::bytes(width, height, 4).div_ceil(1024);
     assert_eq!([kib(128, 64), kib(320, 240), kib(1024, 1024)], [179, 1453, 19_483]);
-    assert_eq!((size_of::<Cell<Tone>>(), size_of::<Cell<Moments>>()), (16, 40));
     // What firmware/README.md says of boards: a single cell, and the largest picture of 4 to 3 with 512 KiB.
-    assert_eq!(bytes(1, 1, 4).div_ceil(1024), 27);
-    assert!(bytes(184, 138, 4) <= 512 << 10 && bytes(188, 141, 4) > 512 << 10);
+    assert_eq!(Metamer::bytes(1, 1, 4).div_ceil(1024), 27);
+    assert!(Metamer::bytes(184, 138, 4) <= 512 << 10 && Metamer::bytes(188, 141, 4) > 512 << 10);
+}
+
+#[test]
+fn memory_that_is_too_short_is_refused() {
+    let need = Metamer::words(20, 10, 4);
+    let made = |width, height, have: usize| {
+        let (mut memory, mut workspace) = (vec![0; have], MetamerWorkspace::new());
+        let mut plate = Plate::new(20, 10, gravel).with_holes(slivers);
+        let before = plate.tones.clone();
+        let mut metamer = Metamer::new(width, height, Recipe::default(), &mut memory, &mut workspace)?;
+        let filled = metamer.fill(&mut plate, &Inpainting::classic(), 0);
+        assert!(filled.is_ok() || plate.tones == before);
+        filled
+    };
+    assert!(made(20, 10, need).is_ok());
+    let too_short = |have| Err(SetupError::TooShort { plane: "metamer", need, have });
+    assert_eq!(made(20, 10, need - 1), too_short(need - 1));
+    // Memory for a smaller scene is too short, for a larger one long enough.
+    assert_eq!(made(8, 8, need - 1), too_short(need - 1));
+    assert!(made(64, 64, Metamer::words(64, 64, 4)).is_ok());
+    assert_eq!(made(0, 8, need), Err(SetupError::Size { width: 0, height: 8 }));
 }

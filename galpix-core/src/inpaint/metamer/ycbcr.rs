@@ -10,7 +10,7 @@ pub const FRACTION_BITS: u32 = 2;
 /// What stands for the luma's middle, so that luma too has a sign.
 const MIDDLE: i16 = 510;
 
-/// Luma less its middle (-510 to 510), and the two chromas (-1020 to 1020), in quarters of a code value. Exact.
+/// Returns luma less its middle (-510 to 510), and the two chromas (-1020 to 1020), in quarters of a code value. Exact.
 #[inline(always)]
 #[must_use]
 pub const fn of_rgb([red, green, blue]: [u8; 3]) -> [i16; 3] {
@@ -18,7 +18,8 @@ pub const fn of_rgb([red, green, blue]: [u8; 3]) -> [i16; 3] {
     [red + 2 * green + blue - MIDDLE, 4 * (blue - green), 4 * (red - green)]
 }
 
-/// The colour: each channel to the nearest code value, halves upwards, clamped to 0 to 255. Channels between -2^28 and 2^28.
+/// Returns the colour: each channel to the nearest code value, halves upwards, clamped to 0 to 255. Channels lie between -2^28
+/// and 2^28.
 #[inline(always)]
 #[must_use]
 pub const fn to_rgb([luma, blue, red]: [i32; 3]) -> [u8; 3] {

@@ -1,51 +1,52 @@
 //! Tiles of a pyramid: 8 x 8 cells of level 1 and what is pulled from them alone, up to one of level 4.
 
-use super::mean::tie;
-use super::push_pull::{Rule, Value, pulled};
-use super::pyramid::{Known, Pyramid, State};
 use super::steerable::TILE;
-use super::validity::FULL;
+use crate::inpaint::kernel::{Known, Value, pulled};
+use crate::inpaint::mean::tie;
+use crate::inpaint::pyramid::{Pyramid, State, Stored};
+use crate::inpaint::settings::Inpainting;
+use crate::inpaint::validity::FULL;
 
 /// Columns and rows of a pulled tile.
-pub(super) const HALF: usize = TILE / 2;
+pub const HALF: usize = TILE / 2;
 
 /// Levels of a tile above the cells that it is pulled from.
-pub(super) const LEVELS: u32 = 4;
+pub const LEVELS: u32 = 4;
 
 /// Columns of level 1 of the tiles of tones that are pulled together.
-pub(super) const ACROSS: u32 = 8 * HALF as u32;
+pub const ACROSS: u32 = 8 * HALF as u32;
 
 /// Cells of a level of a pulled tile, or of its quarters.
-pub(super) type Part<V, const CELLS: usize> = [Known<V>; CELLS];
+pub type Part<V, const CELLS: usize> = [Known<V>; CELLS];
 
 /// Keeps the cells of a level of a tile of `side` x `side` that begins at `left`, `top`.
 #[inline(always)]
-pub(super) fn keep<V: Value>(
-    store: &mut Pyramid<'_, V>,
+pub fn keep<V: Stored>(
+    pyramid: &mut Pyramid<'_, V>,
     level: u32,
     (left, top): (u32, u32),
     side: usize,
     cells: &[Known<V>],
 ) {
     for (row, y) in cells.chunks_exact(side).zip(top..) {
-        let first = store.index(level, left, y);
-        let width = store.levels().level(level).width;
+        let first = pyramid.index(level, left, y);
+        let width = pyramid.levels().level(level).width;
         if first != usize::MAX {
             for ((cell, index), _) in row.iter().zip(first..).zip(left..width) {
-                store.set(index, State::Pulled, *cell);
+                pyramid.set(index, State::Pulled, *cell);
             }
         }
     }
 }
 
-/// The level above a tile's, which has `2 side` x `2 side` cells.
+/// Pulls the level above a tile's, which has `2 side` x `2 side` cells.
 #[inline(always)]
-pub(super) fn halved<V: Value, const CELLS: usize>(
+pub fn halved<V: Value, const CELLS: usize>(
     cells: &[Known<V>],
     side: usize,
     (left, top): (u32, u32),
     level: u32,
-    rule: &Rule,
+    inpainting: &Inpainting<'_>,
 ) -> Part<V, CELLS> {
     let mut halved = [Known::default(); CELLS];
     for (at, to) in halved.iter_mut().enumerate() {
@@ -59,12 +60,12 @@ pub(super) fn halved<V: Value, const CELLS: usize>(
         let tie = tie(left + i as u32, top + j as u32, level);
         let farthest = a.depth.max(b.depth).max(c.depth.max(d.depth));
         let nearest = a.depth.min(b.depth).min(c.depth.min(d.depth));
-        if a.validity & b.validity & c.validity & d.validity == FULL && farthest - nearest <= rule.threshold {
+        if a.validity & b.validity & c.validity & d.validity == FULL && farthest - nearest <= inpainting.threshold {
             to.validity = FULL;
             to.depth = farthest;
             to.value = V::plain_mean(&[a.value, b.value, c.value, d.value], tie);
         } else {
-            *to = pulled(&[*a, *b, *c, *d], rule, tie);
+            *to = pulled(&[*a, *b, *c, *d], inpainting, tie);
         }
     }
     halved
@@ -72,16 +73,16 @@ pub(super) fn halved<V: Value, const CELLS: usize>(
 
 /// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of level 1.
 #[inline(always)]
-pub(super) fn pull_up<V: Value>(
-    store: &mut Pyramid<'_, V>,
-    rule: &Rule,
+pub fn pull_up<V: Stored>(
+    pyramid: &mut Pyramid<'_, V>,
+    inpainting: &Inpainting<'_>,
     (left, top): (u32, u32),
     second: &Part<V, 16>,
 ) {
     let place = |level: u32| (left >> (level - 1), top >> (level - 1));
-    keep(store, 2, place(2), 4, second);
-    let third: Part<V, 4> = halved(second, 2, place(3), 3, rule);
-    keep(store, 3, place(3), 2, &third);
-    let fourth: Part<V, 1> = halved(&third, 1, place(4), 4, rule);
-    keep(store, 4, place(4), 1, &fourth);
+    keep(pyramid, 2, place(2), 4, second);
+    let third: Part<V, 4> = halved(second, 2, place(3), 3, inpainting);
+    keep(pyramid, 3, place(3), 2, &third);
+    let fourth: Part<V, 1> = halved(&third, 1, place(4), 4, inpainting);
+    keep(pyramid, 4, place(4), 1, &fourth);
 }

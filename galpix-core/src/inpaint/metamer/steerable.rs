@@ -54,35 +54,36 @@ pub type Cells = [[i16; COLUMNS]; ROWS];
 /// are two long rows.
 pub type Bands = [[[i16; TILE]; TILE]; 2];
 
-/// Where row `y` of a tile's responses is.
+/// Returns where row `y` of a tile's responses is.
 #[inline(always)]
 #[must_use]
 pub const fn row_of(y: usize) -> usize {
     (y & 1) * (TILE / 2) + (y >> 1)
 }
 
-/// 16 (delta + b).
+/// Returns 16 (delta + b).
 #[inline(always)]
 const fn smoothed([a, b, c, d, e]: [i16; 5]) -> i16 {
     // No sum on the way is larger than the last one can be.
     (a + e) + ((b + d) << 2) + 22 * c
 }
 
-/// 16 (delta - b).
+/// Returns 16 (delta - b).
 #[inline(always)]
 const fn sharpened([a, b, c, d, e]: [i16; 5]) -> i16 {
     10 * c - ((a + e) + ((b + d) << 2))
 }
 
+/// Drops `bits` bits, to the nearest, halves upwards.
 #[inline(always)]
 const fn rounded(sum: i16, bits: u32) -> i16 {
     (sum + (1 << (bits - 1))) >> bits
 }
 
-/// Both bands of a tile. The last columns of the cells are not looked at.
+/// Works out both bands of a tile. The last columns of the cells are not looked at.
 ///
-/// Each pass goes over all rows as if they were one: a loop so long becomes vector code. What it makes of places where a row ends and
-/// the next begins is not used, and fits 16 bits as well: any cells within the range do.
+/// Each pass goes over all rows as if they were one: a loop so long becomes vector code. What it makes of places where a row
+/// ends and the next begins is not used, and fits 16 bits as well: any cells within the range do.
 #[inline]
 pub fn bands(cells: &Cells, bands: &mut Bands) {
     const LONG: usize = TILE * COLUMNS;
@@ -108,8 +109,8 @@ pub fn bands(cells: &Cells, bands: &mut Bands) {
     }
 }
 
-/// Both bands at one cell: of the five by five around it. The same numbers as [`bands`] has.
-#[inline(always)]
+/// Returns both bands at one cell: of the five by five around it. The same numbers as [`bands`] has.
+#[cfg(any(test, feature = "check"))]
 #[must_use]
 pub fn response(window: &[[i16; 5]; 5]) -> [i16; 2] {
     let [a, b, c, d, e] = window;

@@ -23,10 +23,10 @@ pub const FRACTION_BITS: u32 = 10;
 const FACTOR_BITS: u32 = 16;
 
 impl Scale {
-    /// All of them.
+    /// All scales.
     pub const ALL: [Self; 2] = [Self::Interval, Self::Deviation];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -35,13 +35,13 @@ impl Scale {
         }
     }
 
-    /// A response of a band to [`white`], scaled, with [`FRACTION_BITS`].
+    /// Scales a response of a band to [`white`], to [`FRACTION_BITS`].
     ///
     /// The response's largest value is 5104. Its deviation is that of white noise, `4 sqrt((256^2 - 1)/3)`, times the root of the sum of
     /// the kernel's squares, `sqrt(518 134) / 512`, with two fraction bits more: 1216.9.
     #[inline(always)]
     #[must_use]
-    pub const fn scaled(self, response: i16) -> i32 {
+    pub(super) const fn scaled(self, response: i16) -> i32 {
         let factor = match self {
             Self::Interval => (1 << (FRACTION_BITS + FACTOR_BITS)) / LARGEST_RESPONSE as i32,
             Self::Deviation => 55_147,
@@ -66,7 +66,7 @@ const fn mixed(mut bits: u32) -> u32 {
     bits ^ bits >> 16
 }
 
-/// The number that a row's noise begins with.
+/// Returns the number that a row's noise begins with.
 #[inline(always)]
 const fn row_start(x: i32, y: i32, level: u32, seed: u32) -> u32 {
     (x as u32)
@@ -76,23 +76,23 @@ const fn row_start(x: i32, y: i32, level: u32, seed: u32) -> u32 {
         .wrapping_add(seed.wrapping_mul(SEED))
 }
 
-/// A byte as a number that is as often positive as negative: -1020 to 1020 in steps of 8.
+/// Returns a byte as a number that is as often positive as negative: -1020 to 1020 in steps of 8.
 #[inline(always)]
 const fn centred(byte: u32) -> i16 {
     // Four times (2 byte - 255).
     ((byte & 255) << 3) as i16 - LARGEST
 }
 
-/// White noise of a place, three channels: each of 256 values from -1020 to 1020 equally often.
-#[inline(always)]
+/// Returns the white noise of a place, three channels: each of 256 values from -1020 to 1020 equally often.
+#[cfg(any(test, feature = "check"))]
 #[must_use]
 pub const fn white(x: i32, y: i32, level: u32, seed: u32) -> [i16; 3] {
     let bits = mixed(row_start(x, y, level, seed));
     [centred(bits), centred(bits >> 8), centred(bits >> 16)]
 }
 
-/// White noise for a tile of bands whose first cell with its apron is `x`, `y`.
-pub fn white_tile(x: i32, y: i32, level: u32, seed: u32, tiles: &mut [Cells; 3]) {
+/// Makes the white noise for a tile of bands whose first cell with its apron is `x`, `y`.
+fn white_tile(x: i32, y: i32, level: u32, seed: u32, tiles: &mut [Cells; 3]) {
     let [first, second, third] = tiles;
     let mut start = row_start(x, y, level, seed);
     for y in 0..ROWS {
@@ -107,7 +107,7 @@ pub fn white_tile(x: i32, y: i32, level: u32, seed: u32, tiles: &mut [Cells; 3])
     }
 }
 
-/// The bands of white noise in some tiles of the plane, as they were last asked for.
+/// The bands of white noise in some tiles of the plane, as they were last needed.
 #[derive(Debug)]
 pub struct Tiles {
     seed: u32,
@@ -120,8 +120,9 @@ pub struct Tiles {
 /// Two by two tiles: a surface's noise may lie across a corner.
 const PLACES: usize = 4;
 
-impl Default for Tiles {
-    fn default() -> Self {
+impl Tiles {
+    /// Makes room for tiles.
+    pub const fn new() -> Self {
         Self {
             seed: 0,
             keys: [None; PLACES],
@@ -129,16 +130,14 @@ impl Default for Tiles {
             white: [[[0; COLUMNS]; ROWS]; 3],
         }
     }
-}
 
-impl Tiles {
-    /// From now on the noise of another seed.
-    pub fn sow(&mut self, seed: u32) {
+    /// Takes another seed; the tiles of the one before are forgotten.
+    pub fn reseed(&mut self, seed: u32) {
         self.seed = seed;
         self.keys = [None; PLACES];
     }
 
-    /// The responses of both bands at a place, for each channel.
+    /// Returns the responses of both bands at a place, for each channel.
     #[inline]
     #[must_use]
     pub fn at(&mut self, level: u32, x: i32, y: i32) -> [[i16; 2]; 3] {

@@ -1,8 +1,9 @@
-//! Tiles: cells that are worked on side by side.
+//! A tile and what lies around it: cells that are worked on side by side.
 
 use super::steerable::{APRON, COLUMNS, Cells, ROWS, TILE};
 use super::tone::Tone;
-use super::validity::FULL;
+use crate::inpaint::kernel::Known;
+use crate::inpaint::validity::FULL;
 
 /// Neighbours of a row.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,15 +19,15 @@ pub struct Row {
 impl Row {
     /// Sets a cell; none beyond the last.
     #[inline(always)]
-    pub fn set(&mut self, column: usize, validity: u32, depth: u32, tone: &Tone) {
+    pub fn set(&mut self, column: usize, known: &Known<Tone>) {
         if column >= COLUMNS {
             return;
         }
-        for (channel, level) in self.channels.iter_mut().zip(tone.channels) {
+        for (channel, level) in self.channels.iter_mut().zip(known.value.channels) {
             channel[column] = level;
         }
-        self.depths[column] = depth as i32;
-        self.known[column] = -((validity == FULL) as i32);
+        self.depths[column] = known.depth as i32;
+        self.known[column] = -((known.validity == FULL) as i32);
     }
 
     /// Moves all cells to the right and repeats the first one.
@@ -68,19 +69,19 @@ pub struct Surroundings {
 }
 
 /// A bit for each cell of a row of a tile.
-pub type Bits = u32;
+pub type RowBits = u32;
 
 /// The bits of all of them.
-pub const ALL: Bits = (1 << TILE) - 1;
+pub const ALL: RowBits = (1 << TILE) - 1;
 
 impl Surroundings {
-    /// Nothing.
-    pub(super) const fn new() -> Self {
+    /// Makes room for a tile.
+    pub const fn new() -> Self {
         Self { channels: [[[0; COLUMNS]; ROWS]; 3], depths: [[0; COLUMNS]; ROWS], known: [[0; COLUMNS]; ROWS] }
     }
 
-    /// Those of the tile that begins at `left`, `top` in a picture of `width` x `height` cells. `row` gives the cells of a row from a
-    /// column on; the picture's border is repeated.
+    /// Copies the surroundings of the tile that begins at `left`, `top` in a level of `width` x `height` cells. `row` copies the
+    /// cells of a row from a column on; the border is repeated.
     #[inline(always)]
     pub fn load(&mut self, left: u32, top: u32, [width, height]: [u32; 2], mut row: impl FnMut(u32, u32, &mut Row)) {
         let first = left.saturating_sub(APRON as u32);
@@ -108,14 +109,15 @@ impl Surroundings {
         }
     }
 
-    /// Whether all cells under the kernel are known and within `threshold` of each other's depth, for each cell of the tile.
+    /// Returns for each cell of the tile whether all cells under its kernel are known and within `threshold` of each other's
+    /// depth.
     #[inline]
     #[must_use]
-    pub fn whole(&self, threshold: u32) -> [Bits; TILE] {
+    pub fn whole(&self, threshold: u32) -> [RowBits; TILE] {
         let threshold = threshold.min(1 << 27) as i32;
         let (mut low, mut high, mut known) = ([i32::MAX; COLUMNS], [i32::MIN; COLUMNS], [-1; COLUMNS]);
         for (depths, of_row) in self.depths.iter().zip(&self.known) {
-            narrow(&mut low, &mut high, depths);
+            widen(&mut low, &mut high, depths);
             for (known, of_row) in known.iter_mut().zip(of_row) {
                 *known &= of_row;
             }
@@ -136,9 +138,9 @@ impl Surroundings {
         whole
     }
 
-    /// Takes away the bits of cells with something unknown under their kernel.
+    /// Clears the bits of cells with something unknown under their kernel.
     #[inline(never)]
-    fn without_unknown(&self, whole: &mut [Bits; TILE]) {
+    fn without_unknown(&self, whole: &mut [RowBits; TILE]) {
         let mut along = [0; ROWS];
         for (along, known) in along.iter_mut().zip(&self.known) {
             let mut unknown: u32 = 0;
@@ -152,13 +154,13 @@ impl Surroundings {
         }
     }
 
-    /// Takes away the bits of cells with several surfaces under their kernel.
+    /// Clears the bits of cells with several surfaces under their kernel.
     #[inline(never)]
-    fn without_edges(&self, threshold: i32, whole: &mut [Bits; TILE]) {
+    fn without_edges(&self, threshold: i32, whole: &mut [RowBits; TILE]) {
         for (y, whole) in whole.iter_mut().enumerate() {
             let (mut low, mut high) = ([i32::MAX; COLUMNS], [i32::MIN; COLUMNS]);
             for line in y..y + 1 + 2 * APRON {
-                narrow(&mut low, &mut high, &self.depths[line]);
+                widen(&mut low, &mut high, &self.depths[line]);
             }
             for x in 0..TILE {
                 let (mut lowest, mut highest) = (low[x], high[x]);
@@ -172,9 +174,9 @@ impl Surroundings {
     }
 }
 
-/// The range of depths in each column goes on to another row.
+/// Widens the range of depths of each column by those of another row.
 #[inline(always)]
-fn narrow(low: &mut [i32; COLUMNS], high: &mut [i32; COLUMNS], depths: &[i32; COLUMNS]) {
+fn widen(low: &mut [i32; COLUMNS], high: &mut [i32; COLUMNS], depths: &[i32; COLUMNS]) {
     for x in 0..COLUMNS {
         low[x] = low[x].min(depths[x]);
         high[x] = high[x].max(depths[x]);

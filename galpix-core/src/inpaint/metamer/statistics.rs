@@ -4,16 +4,15 @@
 //! `E[X^2] - E[X]^2` (section 3.3.1 of the paper, where the sign is the other way round). Push-pull is such a mean. All means
 //! here are rounded to the nearest, so the difference can become negative by a trifle: then it counts as 0.
 
-use super::mean::{divided, signed};
-use super::push_pull::Value;
-use super::root::nearest_of;
-use super::steerable::{FRACTION_BITS, LARGEST_RESPONSE};
+use super::steerable::LARGEST_RESPONSE;
+use super::tone::{halves, packed};
+use crate::inpaint::kernel::Value;
+use crate::inpaint::mean::{divided, signed};
+use crate::inpaint::pyramid::Stored;
+use crate::inpaint::root::nearest_of;
 
 /// Bands of a level: two for each of three channels.
 pub const BANDS: usize = 6;
-
-/// Fraction bits of the squares.
-pub const SQUARE_FRACTION_BITS: u32 = 2 * FRACTION_BITS;
 
 /// Sums of squares by weights of up to 64 stay below 2^31.
 const _: () = assert!((LARGEST_RESPONSE as u64).pow(2) * 64 < (1 << 31) - 64);
@@ -23,7 +22,7 @@ const _: () = assert!((LARGEST_RESPONSE as u64).pow(2) * 64 < (1 << 31) - 64);
 pub struct Moments {
     /// `E[X]`, with the fraction bits of a response.
     pub means: [i16; BANDS],
-    /// `E[X^2]`, with [`SQUARE_FRACTION_BITS`]; below 2^25.
+    /// `E[X^2]`, with twice as many; below 2^25.
     pub squares: [u32; BANDS],
 }
 
@@ -37,14 +36,14 @@ pub struct Statistics {
 }
 
 impl Moments {
-    /// Those of a single response of each band.
+    /// Returns the moments of a single response of each band.
     #[inline(always)]
     #[must_use]
     pub fn of(responses: [i16; BANDS]) -> Self {
         Self { means: responses, squares: responses.map(|response| (i32::from(response) * i32::from(response)) as u32) }
     }
 
-    /// Mean and deviation.
+    /// Returns mean and deviation.
     #[inline(always)]
     #[must_use]
     pub fn statistics(&self) -> Statistics {
@@ -60,24 +59,49 @@ impl Moments {
         Statistics { means: self.means, deviations }
     }
 
-    /// Statistics in the place of moments, from where [`Self::finished`] takes them.
+    /// Puts statistics in the place of moments, from where [`Self::finished`] takes them.
     #[inline(always)]
-    pub(super) fn finish(statistics: Statistics) -> Self {
+    #[must_use]
+    pub fn finish(statistics: Statistics) -> Self {
         Self { means: statistics.means, squares: statistics.deviations.map(|deviation| deviation as u32) }
     }
 
-    /// What [`Self::finish`] put here.
+    /// Returns what [`Self::finish`] put here.
     #[inline(always)]
-    pub(super) fn finished(&self) -> Statistics {
+    #[must_use]
+    pub fn finished(self) -> Statistics {
         Statistics { means: self.means, deviations: self.squares.map(|deviation| deviation as i16) }
     }
 }
 
-/// `E[X^2] - E[X]^2`, or 0 where rounding has made it negative; with [`SQUARE_FRACTION_BITS`].
+/// Returns `E[X^2] - E[X]^2`, or 0 where rounding has made it negative; with the fraction bits of a square.
 #[inline(always)]
 #[must_use]
 pub fn variance(mean: i16, square: u32) -> u32 {
     square.saturating_sub((i32::from(mean) * i32::from(mean)) as u32)
+}
+
+impl Stored for Moments {
+    type Cell = [u32; 10];
+
+    const WORDS: usize = 10;
+
+    #[inline(always)]
+    fn cells(memory: &mut [u32]) -> &mut [Self::Cell] {
+        memory.as_chunks_mut().0
+    }
+
+    #[inline(always)]
+    fn encode(self, meta: u32) -> Self::Cell {
+        let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (self.means, self.squares);
+        [meta, packed(a, b), packed(c, d), packed(e, f), g, h, i, j, k, l]
+    }
+
+    #[inline(always)]
+    fn decode(&[meta, first, second, third, g, h, i, j, k, l]: &Self::Cell) -> (u32, Self) {
+        let ([a, b], [c, d], [e, f]) = (halves(first), halves(second), halves(third));
+        (meta, Self { means: [a, b, c, d, e, f], squares: [g, h, i, j, k, l] })
+    }
 }
 
 impl Value for Moments {
@@ -117,7 +141,7 @@ impl Value for Moments {
     }
 }
 
-/// By nine, three, three and one sixteenths, to the nearest.
+/// Returns the mean by nine, three, three and one sixteenths, to the nearest.
 #[inline(always)]
 const fn linear([a, b, c, d]: [i16; 4], tie: u32) -> i16 {
     ((9 * a as i32 + 3 * (b as i32 + c as i32) + d as i32 + 7 + tie as i32) >> 4) as i16
@@ -150,6 +174,12 @@ impl Value for Statistics {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn moments_come_back_from_their_cell() {
+        let moments = Moments { means: [-5104, 5104, 0, 1, -1, 77], squares: [0, 1, 5104 * 5104, 4, 5, 6] };
+        assert_eq!(Moments::decode(&moments.encode(9)), (9, moments));
+    }
 
     #[test]
     fn equal_weights_need_no_product() {

@@ -4,7 +4,7 @@ extern crate std;
 use std::vec::Vec;
 
 use super::*;
-use crate::inpaint::steerable::response;
+use crate::inpaint::metamer::steerable::response;
 
 const SIDE: i32 = 256;
 

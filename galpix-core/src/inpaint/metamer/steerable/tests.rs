@@ -125,7 +125,7 @@ fn psnr(a: &Plane, b: &Plane) -> f64 {
 
 #[test]
 fn a_picture_comes_back_from_its_pyramid() {
-    let noise = |x: i32, y: i32| (crate::inpaint::noise::white(x, y, 0, 7)[0] / 4) as f64 / 255.0;
+    let noise = |x: i32, y: i32| (crate::inpaint::metamer::noise::white(x, y, 0, 7)[0] / 4) as f64 / 255.0;
     let waves = |x: i32, y: i32| 300.0 * (f64::from(x) / 3.1 + (f64::from(y) / 9.0).sin()).sin();
     let pictures: Vec<(&str, f64, Plane)> = vec![
         // Waves of 20 cells with a fine grain; fine weave; a step; smooth hills.

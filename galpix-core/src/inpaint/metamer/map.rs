@@ -1,76 +1,16 @@
-//! What the metameric fill_mode takes means of: luma, chroma, and the motion that goes with them.
+//! A galpixmap as a scene for metamers.
 
-use super::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
-use super::mean::signed;
-use super::metamer::Scene;
-use super::push_pull::Value;
-use super::steerable::{COLUMNS, LARGEST};
-use super::tile::Row;
+use super::scene::Scene;
+use super::steerable::COLUMNS;
+use super::surroundings::Row;
+use super::tone::Tone;
 use super::ycbcr;
 use crate::format::Format;
 use crate::format::colour::Colour;
 use crate::format::record::Words;
+use crate::inpaint::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
-
-/// Luma and chroma, and the cell whose motion goes with them, see [`super::paint::Moving`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Tone {
-    /// As [`ycbcr::of_rgb`] has them.
-    pub channels: [i16; 3],
-    /// The cell of the picture.
-    pub source: u32,
-}
-
-impl Tone {
-    /// The same with something added to each channel, in quarters; no channel leaves the range of a colour's.
-    #[inline(always)]
-    #[must_use]
-    pub fn detailed(self, detail: [i32; 3]) -> Self {
-        let mut channels = [0; 3];
-        for ((to, from), more) in channels.iter_mut().zip(self.channels).zip(detail) {
-            *to = (i32::from(from) + more).clamp(-i32::from(LARGEST), i32::from(LARGEST)) as i16;
-        }
-        Self { channels, ..self }
-    }
-}
-
-impl Value for Tone {
-    #[inline(always)]
-    fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
-        let (mut source, mut most) = (0, 0);
-        for (value, &weight) in values.iter().zip(weights) {
-            if weight > most {
-                (source, most) = (value.source, weight);
-            }
-        }
-        let mut channels = [0; 3];
-        for (channel, to) in channels.iter_mut().enumerate() {
-            *to = signed(values.map(|value| i32::from(value.channels[channel])), weights, tie) as i16;
-        }
-        Self { channels, source }
-    }
-
-    #[inline(always)]
-    fn plain_mean([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
-        let mut mean = *a;
-        for (channel, to) in mean.channels.iter_mut().enumerate() {
-            let sum = a.channels[channel] + b.channels[channel] + c.channels[channel] + d.channels[channel];
-            *to = (sum + 1 + tie as i16) >> 2;
-        }
-        mean
-    }
-
-    #[inline(always)]
-    fn linear([a, b, c, d]: &[Self; 4], tie: u32) -> Self {
-        let mut mean = *a;
-        for (channel, to) in mean.channels.iter_mut().enumerate() {
-            let [a, b, c, d] = [a.channels[channel], b.channels[channel], c.channels[channel], d.channels[channel]];
-            *to = (9 * a + 3 * (b + c) + d + 7 + tie as i16) >> 4;
-        }
-        mean
-    }
-}
 
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl OfGalpixel for Tone {
@@ -89,7 +29,7 @@ impl OfGalpixel for Tone {
     }
 }
 
-/// The stored colour nearest to one of 8 bits a channel, or one that is farther by a single code value.
+/// Returns the stored colour nearest to one of 8 bits a channel, or one that is farther by a single code value.
 #[inline(always)]
 fn stored(format: &Colour, rgb: [u8; 3]) -> u32 {
     let mut rounded = [0; 3];
@@ -103,22 +43,8 @@ fn stored(format: &Colour, rgb: [u8; 3]) -> u32 {
 }
 
 impl<F: Format> Scene for Uncovered<'_, '_, F, Tone> {
-    fn holes(&self, mut hole: impl FnMut(u32, u32)) {
-        let grid = *self.map.grid();
-        for (y, &row) in (0..).zip(grid.starts()) {
-            let mut x = 0;
-            while x < grid.width() {
-                let run = (grid.width() - x).min(super::map::LOOK);
-                if self.map.any_just_unobscured(row + x, run) {
-                    for x in x..x + run {
-                        if self.map.class(row + x) == Class::JustUnobscured && self.is_asked_for(row + x) {
-                            hole(x, y);
-                        }
-                    }
-                }
-                x += run;
-            }
-        }
+    fn each_hole(&mut self, mut hole: impl FnMut(u32, u32)) {
+        Uncovered::each_hole(self, |_, x, y, _| hole(x, y));
     }
 
     #[inline]
@@ -204,18 +130,6 @@ mod tests {
             let [red, green, blue] = Colour::RGB565.to_rgb888(stored(&Colour::RGB565, [level; 3]));
             // Steps of five bits are 8 or 9 wide, those of six 4 or 5.
             assert!(level.abs_diff(red) <= 5 && level.abs_diff(green) <= 3 && red == blue, "{level}: {red} {green}");
-        }
-    }
-
-    #[test]
-    fn usual_weights_need_no_product() {
-        let tone = |k: i16| Tone { channels: [k, -k, 1020 - k], source: k as u32 };
-        for k in 0..500 {
-            let values = [tone(k), tone(2 * k), tone(k / 3), tone(510)];
-            for tie in 0..2 {
-                assert_eq!(Tone::plain_mean(&values, tie), Tone::mean(&values, &[16; 4], tie));
-                assert_eq!(Tone::linear(&values, tie), Tone::mean(&values, &[9, 3, 3, 1], tie));
-            }
         }
     }
 }
