@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::{CliError, demo, print, print_json};
-use crate::capture::ImportOptions;
-use crate::experiment::Source;
-use crate::report;
+use crate::output::html;
+use crate::source::Source;
+use crate::source::capture::ImportOptions;
 
 /// The sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
@@ -54,7 +54,7 @@ pub fn folder(out: Option<&PathBuf>, json: bool, name: &str) -> Result<Option<Pa
 pub fn write(out: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
     files.iter().try_for_each(|(name, text)| {
         let path = out.join(name);
-        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))
+        html::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))
     })
 }
 

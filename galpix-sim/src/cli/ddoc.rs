@@ -7,10 +7,10 @@ use galpix_core::ddoc::MOST_RADIUS;
 
 use super::call::{self, command, machine};
 use super::{CliError, file_name, print, print_json};
-use crate::ddoc::pictures::Pictures;
-use crate::ddoc::report::{self, Document};
-use crate::ddoc::{self, Request, SIZES, page};
-use crate::report::write_atomically;
+use crate::output::html::write_atomically;
+use crate::study::ddoc::pictures::Pictures;
+use crate::study::ddoc::report::{self, Document};
+use crate::study::ddoc::{self, Request, SIZES, page};
 
 /// Arguments of `galpix ddoc`.
 #[derive(Debug, Args)]

@@ -8,14 +8,15 @@ use rayon::prelude::*;
 
 use super::choices::Extrapolation;
 use super::{CliError, check, print, say};
-use crate::capture::ImportOptions;
 use crate::certificate::FrameBound;
-use crate::experiment::{self, FrameReport, PositionReport, Request, RunReport, Shown, Source, TruthReport};
-use crate::film::{self, Colours};
+use crate::cli::progress;
+use crate::output::film::{self, Colours};
+use crate::output::html::{self, CertificateLine, Report, Row, Story};
 use crate::picture::Picture;
-use crate::progress;
-use crate::report::{self, CertificateLine, Report, Row, Story};
-use crate::scene;
+use crate::source::Source;
+use crate::source::capture::ImportOptions;
+use crate::source::scene;
+use crate::study::run::{self, FrameReport, PositionReport, Request, RunReport, Shown, TruthReport};
 
 /// A film's frame is shown for this long.
 const FRAME_MS: u16 = 120;
@@ -61,7 +62,7 @@ impl Demo {
         for line in table(&told) {
             print(&line)?;
         }
-        let page = report::html(&Report {
+        let page = html::html(&Report {
             title: "galpix: pictures that keep moving between updates".to_owned(),
             intro: vec![
                 "Each scene below was rendered once, with the motion of every pixel. From that one picture the engine made \
@@ -79,7 +80,7 @@ impl Demo {
             stories: told.into_iter().map(|told| told.story).collect(),
         });
         let path = self.out.join("report.html");
-        report::write_atomically(&path, page.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
+        html::write_atomically(&path, page.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
         print(&path.display().to_string())
     }
 }
@@ -106,13 +107,13 @@ struct Told {
 }
 
 /// Runs a source and makes its story.
-fn tell(source: &Source, request: &Request, bar: &indicatif::ProgressBar) -> Result<Told, experiment::ExperimentError> {
+fn tell(source: &Source, request: &Request, bar: &indicatif::ProgressBar) -> Result<Told, run::ExperimentError> {
     let mut pictures = Vec::new();
-    let run = experiment::run(source, request, |shown| {
+    let run = run::run(source, request, |shown| {
         pictures.extend(panels(shown));
         bar.inc(1);
     })?;
-    let gain = experiment::work_gain(source, request, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?;
+    let gain = run::work_gain(source, request, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?;
     let mut notes = vec![format!(
         "Constant work, the mode whose instructions do not depend on the picture, takes {gain:.1} times as long as a frame that \
          skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."

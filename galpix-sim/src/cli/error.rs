@@ -9,12 +9,12 @@ use galpix_core::{FillMode, Rounding};
 use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
 use super::{CliError, print};
-use crate::experiment::Request;
-use crate::fill::Fill;
-use crate::progress;
-use crate::tradeoff::design::{Extent, Kept};
-use crate::tradeoff::report::{Document, SourceReport};
-use crate::tradeoff::{self, Plan, csv, page, table};
+use crate::cli::progress;
+use crate::engine::fill::Fill;
+use crate::study::error::design::{Extent, Kept};
+use crate::study::error::report::{Document, SourceReport};
+use crate::study::error::{self, Plan, csv, page, table};
+use crate::study::run::Request;
 
 /// Which lanes a galpixel carries beside class and colour.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -102,14 +102,14 @@ impl Error {
         let started = Instant::now();
         let plan = self.plan()?;
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        sources.iter().try_for_each(|source| tradeoff::check(source, &plan).map_err(CliError::unusable))?;
+        sources.iter().try_for_each(|source| error::check(source, &plan).map_err(CliError::unusable))?;
         let out = call::folder(self.out.as_ref(), self.json, "error")?;
         let mut reports: Vec<SourceReport> = Vec::new();
         for source in &sources {
             let bar = progress::bar(0, &super::printable(source.name()));
-            let report = tradeoff::study(source, &plan, |work| match work {
-                tradeoff::Work::Ahead(work) => bar.inc_length(work),
-                tradeoff::Work::Done => bar.inc(1),
+            let report = error::study(source, &plan, |work| match work {
+                error::Work::Ahead(work) => bar.inc_length(work),
+                error::Work::Done => bar.inc(1),
             })
             .map_err(CliError::unusable)?;
             bar.finish_and_clear();

@@ -8,13 +8,13 @@ use clap::Args;
 use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, Inpainting};
 use super::{CliError, check, print, printable, printable_lines, say};
-use crate::experiment::Request;
-use crate::fill::Gamma;
-use crate::fills::case::{self, Case};
-use crate::fills::export::{self, Export};
-use crate::fills::report::Document;
-use crate::fills::{self, FillsError, Plan, csv, page, table};
-use crate::progress;
+use crate::cli::progress;
+use crate::engine::fill::Gamma;
+use crate::study::fills::case::{self, Case};
+use crate::study::fills::export::{self, Export};
+use crate::study::fills::report::Document;
+use crate::study::fills::{self, FillsError, Plan, csv, page, table};
+use crate::study::run::Request;
 
 /// Arguments of `galpix fills`.
 #[derive(Debug, Args)]

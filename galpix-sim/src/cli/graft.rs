@@ -5,9 +5,10 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::call;
+use super::progress;
 use super::{CliError, print, print_json, printable};
-use crate::grafts::{self, GraftsError, Plan, report};
-use crate::{progress, scene};
+use crate::source::scene;
+use crate::study::graft::{self, GraftsError, Plan, report};
 
 /// Arguments of `galpix graft`.
 #[derive(Debug, Args)]
@@ -43,8 +44,8 @@ impl Graft {
             call::writable(out)?;
         }
         let plan = Plan { frames: self.frames, global_every: self.global, objects_every: self.objects };
-        let bar = progress::bar(grafts::WAYS, scene.name());
-        let compared = grafts::study(scene, &plan, || bar.inc(1));
+        let bar = progress::bar(graft::WAYS, scene.name());
+        let compared = graft::study(scene, &plan, || bar.inc(1));
         bar.finish_and_clear();
         let (found, pictures) = compared.map_err(|error| match error {
             GraftsError::Engine(_) => CliError::Failed(error.to_string()),

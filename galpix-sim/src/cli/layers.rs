@@ -8,10 +8,10 @@ use clap::Args;
 use super::call::{self, command, machine};
 use super::choices::AccelerationChoice;
 use super::{CliError, check, print, printable, printable_lines, say};
-use crate::experiment::Request;
-use crate::layers::report::Document;
-use crate::layers::{self, Plan, Study, csv, page, table};
-use crate::progress;
+use crate::cli::progress;
+use crate::study::layers::report::Document;
+use crate::study::layers::{self, Plan, Study, csv, page, table};
+use crate::study::run::Request;
 
 /// Arguments of `galpix layers`.
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ pub struct LayersArguments {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=255))]
     frames: Option<u32>,
     /// How far a second layer lies behind the first at least, as a part of the depth range
-    #[arg(long, value_name = "PART", default_value_t = crate::hidden::SEPARATION, value_parser = super::hidden::separation)]
+    #[arg(long, value_name = "PART", default_value_t = crate::source::hidden::SEPARATION, value_parser = super::hidden::separation)]
     separation: f64,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]

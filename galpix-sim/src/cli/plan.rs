@@ -6,8 +6,9 @@ use clap::Args;
 
 use super::choices::{AccelerationChoice, pixels};
 use super::{CliError, check, print, print_json, printable};
-use crate::experiment::{Request, Source};
-use crate::plan::{self, Axis, Measured, Plan, PlanError, Planning};
+use crate::source::Source;
+use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
+use crate::study::run::Request;
 
 /// Arguments of `galpix plan`.
 #[derive(Debug, Args)]

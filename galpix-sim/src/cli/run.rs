@@ -7,8 +7,9 @@ use clap::Args;
 use super::choices::Extrapolation;
 use super::hidden::HiddenArguments;
 use super::{CliError, check, print, print_json, printable, say};
-use crate::experiment::{self, Request, RunReport, Source};
-use crate::progress;
+use crate::cli::progress;
+use crate::source::Source;
+use crate::study::run::{self, Request, RunReport};
 
 /// Arguments of `galpix run`.
 #[derive(Debug, Default, Args)]
@@ -33,13 +34,13 @@ impl Run {
         let request = Request { way: self.hidden.way(), ..self.extrapolation.request() };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         check(&source, &request)?;
-        experiment::check_way(&source, request.way).map_err(CliError::unusable)?;
+        run::check_way(&source, request.way).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
         let frames = request.frames.unwrap_or(source.frames());
         let bar = progress::bar(u64::from(frames), &printable(source.name()));
         let mut written = Ok(());
-        let report = experiment::run(&source, &request, |shown| {
+        let report = run::run(&source, &request, |shown| {
             let path = out.join(format!("{:04}.png", shown.frame));
             if written.is_ok()
                 && let Err(error) = shown.picture.write_png(&path)

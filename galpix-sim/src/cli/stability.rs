@@ -8,10 +8,10 @@ use galpix_core::{Demand, Rounding};
 
 use super::choices::RoundingChoice;
 use super::{CliError, print, print_json, say};
-use crate::progress;
-use crate::report::write_atomically;
-use crate::stability::verdict::{Uncovered, Verdict};
-use crate::stability::{self, CaseReport, PictureReport, Report, Request, RoundingReport};
+use crate::cli::progress;
+use crate::output::html::write_atomically;
+use crate::study::stability::verdict::{Uncovered, Verdict};
+use crate::study::stability::{self, CaseReport, PictureReport, Report, Request, RoundingReport};
 
 /// Arguments of `galpix stability`.
 #[derive(Debug, Args)]

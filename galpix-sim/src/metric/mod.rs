@@ -11,6 +11,7 @@
 //! | [`flip`] | contrast-filtered opponent colours | 0 ..= 1, **0** |
 //! | [`ssimulacra2()`] | XYB | below 100, 100; whole pictures only |
 
+pub mod area;
 mod local;
 mod ssim;
 mod ssimulacra;

@@ -147,7 +147,8 @@ impl Model {
         };
         let (resolved, before) = (planes(&back), winners.clone());
         let mut tally = Tally::default();
-        stages::fill(&front, &mut back, &mut winners, &edges, fill_mode, reach, &mut tally);
+        let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
+        stages::fill(&front, &mut back, &mut scratch, &plan.settings, &mut tally);
         let fill = Fill {
             setting,
             rung: fill_mode.name().to_owned(),
