@@ -6,7 +6,7 @@ use galpix_core::{FillMode, Rounding};
 use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
 use crate::source::capture::{AccelerationPolicy, ImportOptions};
 use crate::source::hidden::Way;
-use crate::study::run::Request;
+use crate::study::job::Request;
 
 /// How positions are rounded.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]

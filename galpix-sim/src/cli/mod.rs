@@ -5,13 +5,14 @@ mod call;
 mod choices;
 mod ddoc;
 mod demo;
+mod drive;
 mod error;
 mod fills;
 mod graft;
 mod hidden;
 mod layers;
 mod plan;
-pub(crate) mod progress;
+mod progress;
 mod run;
 mod scenes;
 mod send;
@@ -23,11 +24,6 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
-use galpix_core::Bits;
-
-use crate::source::Source;
-use crate::study::run::{ExperimentError, Request, demand};
-
 /// Why a command did not do what it was asked.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
@@ -157,15 +153,6 @@ fn printable(text: &str) -> String {
 /// The same for a text of several lines.
 fn printable_lines(text: &str) -> String {
     text.lines().map(printable).collect::<Vec<_>>().join("\n")
-}
-
-pub(crate) use run::file_name;
-
-/// Refuses a budget that cannot exist, before a folder is made for it.
-fn check(source: &Source, request: &Request) -> Result<(), CliError> {
-    let frames = request.frames.unwrap_or(source.frames());
-    let demand = demand(&source.update(), frames, request);
-    Bits::derive(demand).map(|_| ()).map_err(|error| CliError::unusable(ExperimentError::from(error)))
 }
 
 /// Prints a line, or several, on standard output. A reader that has gone away is no failure.

@@ -15,6 +15,7 @@ pub mod area;
 mod local;
 mod ssim;
 mod ssimulacra;
+pub mod stats;
 
 pub use local::{change, variance};
 

@@ -4,7 +4,7 @@
 //! a script; a small one adds play, pause and stepping to the films.
 //!
 //! ```text
-//! Report ─▶ page (head, facts, primer) ─▶ overview (one line a scene)
+//! Report ─▶ report (page: head, facts) ─▶ overview (one line a scene)
 //!                     └─▶ story (film, certificate, table) ─▶ figures (which lines) ─▶ plot (SVG)
 //! ```
 
@@ -14,6 +14,7 @@ mod figures;
 mod overview;
 mod page;
 pub(crate) mod plot;
+mod report;
 pub(crate) mod scatter;
 pub(crate) mod stack;
 mod story;
@@ -21,7 +22,8 @@ pub(crate) mod style;
 pub(crate) mod text;
 
 pub use super::save::write_atomically;
-pub use page::{document, facts, html, notes, picture, source_head};
+pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
+pub use report::html;
 
 /// Everything that a report says. All text is plain; it is escaped where it meets HTML.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +33,7 @@ pub struct Report {
     /// Paragraphs below the heading.
     pub intro: Vec<String>,
     /// Names and values about the run: version, machine, options.
-    pub facts: Vec<(String, String)>,
+    pub facts: Vec<Fact>,
     /// One a scene, in the order in which they are told.
     pub stories: Vec<Story>,
 }

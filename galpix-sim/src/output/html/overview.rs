@@ -1,7 +1,10 @@
 //! The table at the top: one line a scene.
 
+use maud::{Markup, html};
+
 use super::text::{Text, anchor, figure, signed};
 use super::{CertificateLine, Report, Row, Story};
+use crate::metric::stats::{mean, median};
 
 /// How measured position errors lie to the certified bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,77 +92,85 @@ fn finite(story: &Story, column: impl Fn(&Row) -> Option<f64>) -> impl Iterator<
     story.rows.iter().filter_map(column).filter(|value| value.is_finite())
 }
 
-fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-    (count > 0.0).then(|| sum / count)
-}
-
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() % 2 {
-        1 => values.get(middle).copied(),
-        _ => Some((values.get(middle.checked_sub(1)?)? + values.get(middle)?) / 2.0),
-    }
-}
-
-/// The overview as a section.
-pub fn overview(report: &Report) -> String {
-    if report.stories.is_empty() {
-        return "<section id=\"overview\"><h2>Overview</h2><p class=\"nothing\">No scene was run.</p></section>".into();
-    }
+/// Returns the overview as a section.
+pub fn overview(report: &Report) -> Markup {
     let summaries: Vec<_> = report.stories.iter().map(Summary::of).collect();
     let widest = summaries.iter().filter_map(|s| s.gain_db).map(f64::abs).filter(|g| g.is_finite()).fold(0.0, f64::max);
-    let stories = report.stories.iter().enumerate().zip(&summaries);
-    let lines: String = stories.map(|((index, story), summary)| line(index, story, summary, widest)).collect();
-    format!(
-        "<section id=\"overview\"><h2>Overview</h2><div class=\"wide\"><table class=\"overview\"><thead><tr>\
-         <th>scene</th><th>frames</th><th>galpix</th><th>sample-and-hold</th><th>gain</th>\
-         <th>worst position error</th><th>holes</th><th>ns a galpixel</th></tr></thead><tbody>{lines}</tbody></table></div>\
-         <p class=\"remark\">PSNR against the truth and holes before filling: means over the frames. Position error: the \
-         worst, against the exact second-order path, before the snap. Time: the median of all frames.</p>\
-         </section>"
-    )
-}
-
-fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> String {
-    let frame = summary.frame.map_or_else(|| figure(None, 0), |frame| frame.to_string());
-    let unit = |value: Option<f64>, decimals: usize, unit: &str| match value {
-        Some(value) if value.is_finite() => format!("{}<small>{unit}</small>", figure(Some(value), decimals)),
-        _ => figure(None, 0),
-    };
-    let cell = |name: &str, content: &str| format!("<td data-name=\"{name}\"><span>{content}</span></td>");
-    let bound = match (summary.bound_px, summary.standing) {
-        (Some(bound), Some(Standing::Inside)) => format!(" <em class=\"good\">inside {}</em>", figure(Some(bound), 2)),
-        (Some(_), Some(Standing::BeyondFrom(frame))) => format!(" <em class=\"poor\">past bound at {frame}</em>"),
-        (Some(bound), None) => format!(" <em>bound {}</em>", figure(Some(bound), 2)),
-        (None, _) => String::new(),
-    };
-    [
-        format!("<tr><th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(index, &story.name), Text(&story.name)),
-        cell("frame", &frame),
-        cell("galpix", &unit(summary.psnr_db, 1, "dB")),
-        cell("sample-and-hold", &unit(summary.psnr_hold_db, 1, "dB")),
-        cell("gain", &gain(summary.gain_db, widest_gain)),
-        cell("worst position error", &format!("{}{bound}", unit(summary.worst_px, 2, "px"))),
-        cell("holes", &unit(summary.holes_percent, 1, "%")),
-        cell("ns a galpixel", &figure(summary.ns_per_galpixel, 1)),
-        "</tr>".to_owned(),
-    ]
-    .concat()
-}
-
-/// The gain as a figure with a bar, relative to the widest gain of the report.
-fn gain(gain_db: Option<f64>, widest: f64) -> String {
-    match gain_db.filter(|gain| gain.is_finite()) {
-        None => figure(None, 0),
-        Some(gain) => {
-            let share = if widest > 0.0 { (100.0 * gain.abs() / widest).round() } else { 0.0 };
-            let class = if gain < 0.0 { "bar poor" } else { "bar good" };
-            format!(
-                "<i class=\"{class}\"><i style=\"width:{share:.0}%\"></i></i>{}<small>dB</small>",
-                signed(Some(gain), 1)
-            )
+    html! {
+        section id="overview" {
+            h2 { "Overview" }
+            @if report.stories.is_empty() {
+                p.nothing { "No scene was run." }
+            } @else {
+                div.wide {
+                    table.overview {
+                        thead { tr { th { "scene" } @for name in NAMES { th { (name) } } } }
+                        tbody {
+                            @for ((index, story), summary) in report.stories.iter().enumerate().zip(&summaries) {
+                                (line(index, story, summary, widest))
+                            }
+                        }
+                    }
+                }
+                p.remark {
+                    "PSNR against the truth and holes before filling: means over the frames. Position error: the worst, against \
+                     the exact second-order path, before the snap. Time: the median of all frames."
+                }
+            }
         }
+    }
+}
+
+/// The columns beside the scene's name.
+const NAMES: [&str; 7] =
+    ["frames", "galpix", "sample-and-hold", "gain", "worst position error", "holes", "ns a galpixel"];
+
+fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> Markup {
+    let frame = summary.frame.map_or_else(|| figure(None, 0), |frame| frame.to_string());
+    let bound = html! {
+        @match (summary.bound_px, summary.standing) {
+            (Some(bound), Some(Standing::Inside)) => { " " em.good { "inside " (figure(Some(bound), 2)) } },
+            (Some(_), Some(Standing::BeyondFrom(frame))) => { " " em.poor { "past bound at " (frame) } },
+            (Some(bound), None) => { " " em { "bound " (figure(Some(bound), 2)) } },
+            (None, _) => {},
+        }
+    };
+    html! {
+        tr {
+            th scope="row" { a href={ "#" (anchor(index, &story.name)) } { (Text(&story.name)) } }
+            (cell("frame", &html! { (frame) }))
+            (cell("galpix", &unit(summary.psnr_db, 1, "dB")))
+            (cell("sample-and-hold", &unit(summary.psnr_hold_db, 1, "dB")))
+            (cell("gain", &gain(summary.gain_db, widest_gain)))
+            (cell("worst position error", &html! { (unit(summary.worst_px, 2, "px")) (bound) }))
+            (cell("holes", &unit(summary.holes_percent, 1, "%")))
+            (cell("ns a galpixel", &html! { (figure(summary.ns_per_galpixel, 1)) }))
+        }
+    }
+}
+
+/// Returns a cell that says its column's name where the table is narrow.
+pub fn cell(name: &str, content: &Markup) -> Markup {
+    html! { td data-name=(name) { span { (content) } } }
+}
+
+fn unit(value: Option<f64>, decimals: usize, unit: &str) -> Markup {
+    html! {
+        @match value.filter(|value| value.is_finite()) {
+            Some(value) => { (figure(Some(value), decimals)) small { (unit) } },
+            None => (figure(None, 0)),
+        }
+    }
+}
+
+/// Returns the gain as a figure with a bar, relative to the widest gain of the report.
+fn gain(gain_db: Option<f64>, widest: f64) -> Markup {
+    let Some(gain) = gain_db.filter(|gain| gain.is_finite()) else { return html! { (figure(None, 0)) } };
+    let share = if widest > 0.0 { (100.0 * gain.abs() / widest).round() } else { 0.0 };
+    let class = if gain < 0.0 { "bar poor" } else { "bar good" };
+    html! {
+        i class=(class) { i style=(format!("width:{share:.0}%")) {} }
+        (signed(Some(gain), 1))
+        small { "dB" }
     }
 }

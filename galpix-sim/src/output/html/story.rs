@@ -1,53 +1,55 @@
 //! One scene: film, plots, certificate, notes, table.
 
-use super::figures::figures;
-use super::overview::{Standing, Summary};
-use super::text::{Text, anchor, count, figure};
-use super::{CertificateLine, Row, Story};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use maud::{Markup, PreEscaped, html};
 
-/// The story as a section; `index` counts from 0.
-pub fn section(index: usize, story: &Story) -> String {
+use super::figures::figures;
+use super::overview::{Standing, Summary};
+use super::page::list;
+use super::text::{Text, anchor, figure};
+use super::{CertificateLine, Row, Story};
+use crate::output::column::{self, Column};
+
+/// Returns the story as a section; `index` counts from 0.
+pub fn section(index: usize, story: &Story) -> Markup {
     let size = format!("{}\u{00D7}{}", story.width, story.height);
     let budget = [&size, &story.budget_line, &story.rounding, &story.fill];
-    let names = ["display", "budget", "rounding", "fill"];
-    let tags: String = names
-        .iter()
-        .zip(budget)
-        .filter(|(_, value)| !value.is_empty())
-        .map(|(name, value)| format!("<li><b>{name}</b> {}</li>", Text(value)))
-        .collect();
-    let certificate = story.certificate.as_ref().map(|certificate| promise(certificate, &Summary::of(story)));
-    [
-        format!("<section class=\"story\" id=\"{}\"><h2>{}</h2>", anchor(index, &story.name), Text(&story.name)),
-        format!("<p class=\"about\">{}</p><ul class=\"tags\">{tags}</ul>", Text(&story.about)),
-        film(story),
-        certificate.unwrap_or_default(),
-        figures(story),
-        notes(story),
-        table(story),
-        "<p class=\"up\"><a href=\"#overview\">to the overview</a></p></section>".to_owned(),
-    ]
-    .concat()
+    let tags = ["display", "budget", "rounding", "fill"].into_iter().zip(budget);
+    html! {
+        section.story id=(anchor(index, &story.name)) {
+            h2 { (Text(&story.name)) }
+            p.about { (Text(&story.about)) }
+            ul.tags {
+                @for (name, value) in tags.filter(|(_, value)| !value.is_empty()) { li { b { (name) } " " (Text(value)) } }
+            }
+            @if !story.film_apng.is_empty() { (film(story)) }
+            @if let Some(certificate) = &story.certificate { (promise(certificate, &Summary::of(story))) }
+            (PreEscaped(figures(story)))
+            @if !story.notes.is_empty() { (list(&story.notes)) }
+            (table(story))
+            p.up { a href="#overview" { "to the overview" } }
+        }
+    }
 }
 
-fn film(story: &Story) -> String {
-    if story.film_apng.is_empty() {
-        return String::new();
+fn film(story: &Story) -> Markup {
+    let size = png_size(&story.film_apng);
+    html! {
+        figure.film {
+            div.wide {
+                img width=[size.map(|size| size[0])] height=[size.map(|size| size[1])]
+                    alt={ (Text(&story.name)) ": truth, sample-and-hold, galpix and their difference, animated" }
+                    src={ "data:image/png;base64," (STANDARD.encode(&story.film_apng)) };
+            }
+            figcaption {
+                b { "truth" } " what a renderer would show in each frame \u{00B7} "
+                b { "sample-and-hold" } " the update, frozen \u{00B7} "
+                b { "galpix" } " the update, kept moving \u{00B7} "
+                b { "difference" } " galpix against the truth, enlarged; black is identical"
+            }
+        }
     }
-    let size = png_size(&story.film_apng)
-        .map(|[width, height]| format!(" width=\"{width}\" height=\"{height}\""))
-        .unwrap_or_default();
-    format!(
-        "<figure class=\"film\"><div class=\"wide\"><img{size} alt=\"{}: truth, sample-and-hold, galpix and their \
-         difference, animated\" src=\"data:image/png;base64,{}\"></div>\
-         <figcaption><b>truth</b> what a renderer would show in each frame \u{00B7} <b>sample-and-hold</b> the update, \
-         frozen \u{00B7} <b>galpix</b> the update, kept moving \u{00B7} <b>difference</b> galpix against the truth, \
-         enlarged; black is identical</figcaption></figure>",
-        Text(&story.name),
-        STANDARD.encode(&story.film_apng)
-    )
 }
 
 /// Width and height as a PNG's header says.
@@ -57,7 +59,7 @@ fn png_size(bytes: &[u8]) -> Option<[u32; 2]> {
 }
 
 /// The certificate in words, and what was measured beside it.
-fn promise(certificate: &CertificateLine, summary: &Summary) -> String {
+fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
     let px = |value: f64| format!("{}\u{00A0}px", figure(Some(value), 4));
     let (class, verdict) = match certificate.holds {
         true => ("good", format!("Keeps the paper\u{2019}s one-pixel promise: {}.", px(certificate.total_px))),
@@ -77,49 +79,45 @@ fn promise(certificate: &CertificateLine, summary: &Summary) -> String {
         ),
         _ => "The true motion is not known here, so nothing was measured beside it.".to_owned(),
     };
-    format!(
-        "<p class=\"promise {class}\"><strong>{verdict}</strong> {} from quantisation and {} from rounding drift, in the \
-         worst case over all states. {measured} The snap to a cell, at most half a pixel, stands apart.</p>",
-        px(certificate.quantisation_px),
-        px(certificate.drift_px)
-    )
-}
-
-fn notes(story: &Story) -> String {
-    let items: String = story.notes.iter().map(|note| format!("<li>{}</li>", Text(note))).collect();
-    if items.is_empty() { items } else { format!("<ul class=\"notes\">{items}</ul>") }
-}
-
-/// A column of the table: heading, and what a row says there.
-type Column = (&'static str, fn(&Row) -> String);
-
-const COLUMNS: [Column; 15] = [
-    ("frame", |row| row.frame.to_string()),
-    ("galpix dB", |row| figure(row.psnr_db, 2)),
-    ("hold dB", |row| figure(row.psnr_hold_db, 2)),
-    ("reached dB", |row| figure(row.psnr_known_db, 2)),
-    ("worst px", |row| figure(row.position_error_px, 3)),
-    ("mean px", |row| figure(row.mean_position_error_px, 3)),
-    ("truth px", |row| figure(row.truth_error_px, 3)),
-    ("holes", |row| count(row.holes)),
-    ("filled", |row| count(row.filled)),
-    ("bullets", |row| count(row.bullets)),
-    ("unobscured", |row| count(row.unobscured)),
-    ("lost", |row| count(row.lost)),
-    ("collided", |row| count(row.collided)),
-    ("saturated", |row| count(row.saturated)),
-    ("ns a galpixel", |row| figure(row.ns_per_galpixel, 2)),
-];
-
-fn table(story: &Story) -> String {
-    if story.rows.is_empty() {
-        return "<p class=\"nothing\">No frame was run.</p>".to_owned();
+    html! {
+        p class={ "promise " (class) } {
+            strong { (verdict) }
+            " " (px(certificate.quantisation_px)) " from quantisation and " (px(certificate.drift_px))
+            " from rounding drift, in the worst case over all states. " (measured)
+            " The snap to a cell, at most half a pixel, stands apart."
+        }
     }
-    let head: String = COLUMNS.iter().map(|(name, _)| format!("<th>{name}</th>")).collect();
-    let line = |row: &Row| COLUMNS.iter().map(|(_, cell)| format!("<td>{}</td>", cell(row))).collect::<String>();
-    let body: String = story.rows.iter().map(|row| format!("<tr>{}</tr>", line(row))).collect();
-    format!(
-        "<details><summary>All figures, frame by frame</summary><div class=\"wide\"><table class=\"rows\">\
-         <thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div></details>"
-    )
+}
+
+fn columns() -> [Column<Row>; 15] {
+    [
+        Column::new(|row: &Row| row.frame.into()).page("frame", 0),
+        Column::new(|row: &Row| row.psnr_db.into()).page("galpix dB", 2),
+        Column::new(|row: &Row| row.psnr_hold_db.into()).page("hold dB", 2),
+        Column::new(|row: &Row| row.psnr_known_db.into()).page("reached dB", 2),
+        Column::new(|row: &Row| row.position_error_px.into()).page("worst px", 3),
+        Column::new(|row: &Row| row.mean_position_error_px.into()).page("mean px", 3),
+        Column::new(|row: &Row| row.truth_error_px.into()).page("truth px", 3),
+        Column::new(|row: &Row| row.holes.into()).page("holes", 0).grouped(),
+        Column::new(|row: &Row| row.filled.into()).page("filled", 0).grouped(),
+        Column::new(|row: &Row| row.bullets.into()).page("bullets", 0).grouped(),
+        Column::new(|row: &Row| row.unobscured.into()).page("unobscured", 0).grouped(),
+        Column::new(|row: &Row| row.lost.into()).page("lost", 0).grouped(),
+        Column::new(|row: &Row| row.collided.into()).page("collided", 0).grouped(),
+        Column::new(|row: &Row| row.saturated.into()).page("saturated", 0).grouped(),
+        Column::new(|row: &Row| row.ns_per_galpixel.into()).page("ns a galpixel", 2),
+    ]
+}
+
+fn table(story: &Story) -> Markup {
+    html! {
+        @if story.rows.is_empty() {
+            p.nothing { "No frame was run." }
+        } @else {
+            details {
+                summary { "All figures, frame by frame" }
+                (column::html("rows", &columns(), &story.rows))
+            }
+        }
+    }
 }

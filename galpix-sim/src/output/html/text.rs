@@ -1,6 +1,6 @@
 //! Text and figures as they stand in HTML.
 
-use std::fmt::{Display, Formatter, Result};
+use std::fmt::{Display, Formatter, Result, Write as _};
 
 /// Plain text in HTML content or in a quoted attribute: `& < > " '` escaped.
 pub struct Text<'a>(pub &'a str);
@@ -22,6 +22,13 @@ impl Display for Text<'_> {
             }
         }
         Ok(())
+    }
+}
+
+impl maud::Render for Text<'_> {
+    fn render_to(&self, buffer: &mut String) {
+        // Writing into a string cannot fail.
+        let _ = write!(buffer, "{self}");
     }
 }
 

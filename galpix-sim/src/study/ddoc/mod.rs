@@ -7,11 +7,12 @@
 //! scene ─▶ hidden (the DDOC image as galpixels)
 //! ```
 
+mod columns;
 pub mod distortion;
 pub mod hidden;
 pub mod import;
 pub mod missing;
-pub mod page;
+mod page;
 pub mod pictures;
 pub mod raster;
 pub mod reference;
@@ -24,6 +25,8 @@ pub mod worlds;
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use galpix_core::SetupError;
 use galpix_core::ddoc::{MOST_RADIUS, SYMMETRIC, Settings};
 
@@ -34,6 +37,9 @@ use self::report::SourceReport;
 use self::view::View;
 use self::warp::Joint;
 use self::world::World;
+use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
+use crate::output::column::Table;
+use crate::output::save::file_name;
 use crate::source::scene;
 
 /// The sides of reference images that are possible, pixels.
@@ -76,6 +82,74 @@ impl Request {
     pub fn joints(&self) -> [Joint; 2] {
         let step = STEP * 512.0 / self.size as f32;
         [1.5, 2.0 * self.asymmetry as f32 + 4.0].map(|reach| Joint { step, reach })
+    }
+}
+
+/// A world as it was seen.
+#[derive(Clone, Debug, Serialize)]
+pub struct Seen {
+    /// Its figures.
+    #[serde(flatten)]
+    pub report: SourceReport,
+    /// Its pictures.
+    #[serde(skip)]
+    pub pictures: Pictures,
+}
+
+/// The whole study.
+pub type Document = super::Document<NoExtra, Seen>;
+
+impl Study for Request {
+    type Source = World;
+    type Job<'s> = &'s World;
+    type Report = Seen;
+    type Extra = NoExtra;
+
+    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+    const SECONDS: bool = false;
+
+    fn name<'a>(&self, world: &'a World) -> &'a str {
+        &world.name
+    }
+
+    fn resolve<'s>(&self, world: &'s World) -> Result<&'s World, StudyError> {
+        Ok(world)
+    }
+
+    fn pieces(&self, _world: &&World) -> u64 {
+        1
+    }
+
+    fn study(&self, world: &&World, stage: &Stage<'_>) -> Result<Found<Seen>, StudyError> {
+        let (report, pictures) = study(world, self).map_err(StudyError::unusable)?;
+        (stage.tell)(Work::Done);
+        Ok(Found::Report(Seen { report, pictures }))
+    }
+
+    fn head(&self) -> Option<String> {
+        Some(Table::new(&columns::columns(), &[]).heading())
+    }
+
+    fn text(&self, seen: &Seen) -> String {
+        Table::new(&columns::columns(), &[]).line(&seen.report)
+    }
+
+    fn extra(&self, _silent: &Silent) -> NoExtra {
+        NoExtra {}
+    }
+
+    fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
+        let mut files = Vec::new();
+        for Seen { report, pictures } in &document.sources {
+            for (name, _, picture) in &pictures.all {
+                let png = picture.png().map_err(StudyError::failed)?;
+                files.push((format!("{}-{name}.png", file_name(&report.source)), png));
+            }
+        }
+        let json = self.json(document).map_err(StudyError::failed)? + "\n";
+        files.push(("ddoc.json".to_owned(), json.into_bytes()));
+        files.push(("ddoc.html".to_owned(), page::html(document).into_bytes()));
+        Ok(files)
     }
 }
 

@@ -1,26 +1,11 @@
 //! The study's figures, as they are printed and written.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
 use super::Request;
 use super::missing::Missing;
 use super::reference::Ddoc;
 use super::world::World;
-
-/// The whole study.
-#[derive(Clone, Debug, Serialize)]
-pub struct Document {
-    /// Version of the program.
-    pub version: &'static str,
-    /// The call.
-    pub command: String,
-    /// The machine.
-    pub machine: String,
-    /// One a world.
-    pub sources: Vec<SourceReport>,
-}
 
 /// Seconds for a DDOC image.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -116,56 +101,3 @@ impl SourceReport {
         }
     }
 }
-
-/// The head of the table on the terminal.
-#[must_use]
-pub fn head() -> String {
-    format!(
-        "{:<12}{:>10}{:>8}{:>8}{:>7}{:>9}{:>8}{:>7}{:>10}{:>8}{:>8}{:>9}",
-        "world",
-        "triangles",
-        "plain",
-        "DDOC",
-        "ratio",
-        "strict:",
-        "DDOC",
-        "ratio",
-        "samples",
-        "splats",
-        "shrunk",
-        "seconds"
-    )
-}
-
-/// A share in percent.
-fn percent(share: Option<f64>) -> String {
-    share.map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share))
-}
-
-/// A world's line. Missing samples are means over the views.
-#[must_use]
-pub fn row(report: &SourceReport) -> String {
-    let mean = |sum: u64| format!("{:.0}", sum as f64 / report.views.max(1) as f64);
-    let mut name = report.source.clone();
-    if name.chars().count() > 11 {
-        name = name.chars().take(10).chain(['…']).collect();
-    }
-    let mut line = format!("{name:<12}{:>10}", report.triangles);
-    let _ = write!(
-        line,
-        "{:>8}{:>8}{:>7}{:>9}{:>8}{:>7}",
-        mean(report.missing_plain),
-        mean(report.missing_ddoc),
-        percent(report.ratio),
-        mean(report.strict_plain),
-        mean(report.strict_ddoc),
-        percent(report.strict_ratio)
-    );
-    let _ = write!(line, "{:>10}{:>8}{:>8}{:>9.2}", report.samples, report.splats, report.shrunk, report.seconds.total);
-    line
-}
-
-/// What the table's columns are.
-pub const LEGEND: &str = "\
-Missing samples of the truth, a view's mean over the 26 of a cube: plain, in frames made from the depth image; DDOC, from the
-DDOC image; each within a pixel, then (strict) at the very pixel, where outlines count, too. seconds: z-buffer, map and image.";

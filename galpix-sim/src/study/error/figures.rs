@@ -1,5 +1,7 @@
 //! What the plots of a source show.
 
+use maud::{Markup, PreEscaped, html};
+
 use super::legend::{block_key, ink, key, line_key, radius, shape};
 use super::report::{Point, Scheme, SourceReport};
 use crate::output::html::axis::Scale;
@@ -11,18 +13,17 @@ use crate::output::html::text::Text;
 /// Position errors below this are drawn at it, in pixels.
 const FLOOR_PX: f64 = 0.001;
 
-/// All plots of a source, each a `<figure>`.
-pub fn all(source: &SourceReport) -> String {
-    [
-        position(source, true),
-        picture(source),
-        bytes(source),
-        rates(source),
-        causes(source),
-        squares(source),
-        position(source, false),
-    ]
-    .concat()
+/// Returns all plots of a source, each a `<figure>`.
+pub fn all(source: &SourceReport) -> Markup {
+    html! {
+        (position(source, true))
+        (picture(source))
+        (bytes(source))
+        (rates(source))
+        (causes(source))
+        (squares(source))
+        (position(source, false))
+    }
 }
 
 /// The letter of the `place`-th point of a front.
@@ -60,7 +61,7 @@ fn marks(source: &SourceReport, at: Figures<'_>, front: &[usize], bounds: bool) 
     (points.iter().filter_map(mark).collect(), Course { ink: Ink::Guide, dashed: false, points: stair })
 }
 
-fn position(source: &SourceReport, compiled: bool) -> String {
+fn position(source: &SourceReport, compiled: bool) -> Markup {
     let at = |point: &Point| {
         let time = if compiled || point.scheme == Scheme::F32 { point.compile_time } else { point.run_time };
         Some((time?.frame_us, point.summary.worst_px?))
@@ -90,7 +91,7 @@ fn position(source: &SourceReport, compiled: bool) -> String {
     figure(title, &key(source, true), scatter::svg(&plot), remark)
 }
 
-fn picture(source: &SourceReport) -> String {
+fn picture(source: &SourceReport) -> Markup {
     let at = |point: &Point| Some((point.compile_time?.frame_us, point.summary.flip?));
     let (marks, stair) = marks(source, &at, &source.fronts.picture, false);
     let mut courses = vec![stair];
@@ -102,11 +103,12 @@ fn picture(source: &SourceReport) -> String {
         courses,
         marks,
     };
-    let legend = key(source, false) + &line_key("sample-and-hold, which takes no time", Ink::Hold, true);
+    let hold = line_key("sample-and-hold, which takes no time", Ink::Hold, true);
+    let legend = html! { (key(source, false)) (hold) };
     figure("Picture error against time", &legend, scatter::svg(&plot), "Lower is better; 0 is the true picture.")
 }
 
-fn bytes(source: &SourceReport) -> String {
+fn bytes(source: &SourceReport) -> Markup {
     let at = |point: &Point| Some((point.bytes as f64, point.summary.worst_px?));
     let (marks, stair) = marks(source, &at, &source.fronts.bytes, true);
     let plot = Scatter {
@@ -120,7 +122,7 @@ fn bytes(source: &SourceReport) -> String {
     figure("Position error against memory", &key(source, true), scatter::svg(&plot), remark)
 }
 
-fn rates(source: &SourceReport) -> String {
+fn rates(source: &SourceReport) -> Markup {
     let (title, x, remark, moved, held): (_, _, _, Vec<_>, Vec<_>) = if source.rates.is_empty() {
         (
             "Error by age",
@@ -155,11 +157,13 @@ fn rates(source: &SourceReport) -> String {
             Course { ink: Ink::Galpix, dashed: false, points: moved },
         ],
     };
-    let legend = line_key("galpix", Ink::Galpix, false) + &line_key("sample-and-hold", Ink::Hold, false);
+    let [moved, held] =
+        [("galpix", Ink::Galpix), ("sample-and-hold", Ink::Hold)].map(|(name, ink)| line_key(name, ink, false));
+    let legend = html! { (moved) (held) };
     figure(title, &legend, scatter::svg(&plot), remark)
 }
 
-fn causes(source: &SourceReport) -> String {
+fn causes(source: &SourceReport) -> Markup {
     let layer = |name: &str, ink: Ink, column: &dyn Fn(&super::causes::FrameCauses) -> f64| Layer {
         name: name.to_owned(),
         ink,
@@ -175,8 +179,7 @@ fn causes(source: &SourceReport) -> String {
     ];
     layers.retain(|layer| layer.figures.iter().any(|&figure| figure > 0.0));
     let all = layer("all together", Ink::Label, &|frame| frame.all_px);
-    let legend: String = layers.iter().map(|layer| block_key(&layer.name, layer.ink)).collect::<String>()
-        + &line_key(&all.name, Ink::Label, false);
+    let legend = stack_key(&layers, &all, Ink::Label);
     let known = source.causes.iter().any(|frame| frame.taylor_px.is_some());
     let remark = if known {
         "Means over the galpixels of the update, the worse of x and y: from the true place to the cell that shows it. Causes \
@@ -196,7 +199,7 @@ fn causes(source: &SourceReport) -> String {
     figure("Position error by cause", &legend, stack::svg(&stack), &format!("{name}. {remark}"))
 }
 
-fn squares(source: &SourceReport) -> String {
+fn squares(source: &SourceReport) -> Markup {
     let frames: Vec<_> = source.causes.iter().filter(|frame| frame.mse_reached.is_some()).collect();
     let layer = |name: &str, ink: Ink, column: &dyn Fn(&super::causes::FrameCauses) -> Option<f64>| Layer {
         name: name.to_owned(),
@@ -208,8 +211,7 @@ fn squares(source: &SourceReport) -> String {
         layer("holes, as the rung fills them", Ink::Holes, &|frame| frame.mse_missing),
     ];
     let hold = layer("sample-and-hold", Ink::Hold, &|frame| frame.mse_hold);
-    let legend: String = layers.iter().map(|layer| block_key(&layer.name, layer.ink)).collect::<String>()
-        + &line_key(&hold.name, Ink::Hold, false);
+    let legend = stack_key(&layers, &hold, Ink::Hold);
     let stack = Stack {
         description: format!("{}: squared error of the picture in reached cells and in holes", source.source),
         y: "mean squared error, code values\u{00B2}".to_owned(),
@@ -222,10 +224,23 @@ fn squares(source: &SourceReport) -> String {
     figure("Picture error by cause", &legend, stack::svg(&stack), remark)
 }
 
-fn figure(title: &str, legend: &str, drawing: Option<String>, remark: &str) -> String {
-    let body = match drawing {
-        Some(drawing) => format!("<p class=\"legend\">{legend}</p>{drawing}"),
-        None => "<p class=\"nothing\">There is no true picture to compare with.</p>".to_owned(),
-    };
-    format!("<figure><h3>{}</h3>{body}<figcaption>{}</figcaption></figure>", Text(title), Text(remark))
+/// Returns the legend of layers, and of a line over them.
+fn stack_key(layers: &[Layer], line: &Layer, ink: Ink) -> Markup {
+    html! {
+        @for layer in layers { (block_key(&layer.name, layer.ink)) }
+        (line_key(&line.name, ink, false))
+    }
+}
+
+fn figure(title: &str, legend: &Markup, drawing: Option<String>, remark: &str) -> Markup {
+    html! {
+        figure {
+            h3 { (Text(title)) }
+            @match drawing {
+                Some(drawing) => { p.legend { (legend) } (PreEscaped(drawing)) },
+                None => p.nothing { "There is no true picture to compare with." },
+            }
+            figcaption { (Text(remark)) }
+        }
+    }
 }

@@ -10,6 +10,7 @@ use galpix_core::FillMode;
 
 use super::design::Kept;
 use crate::picture::Picture;
+use crate::study::timing::Contender;
 use crate::update::{Known, Sample, Update};
 
 /// In an origin map: nobody of the update.
@@ -231,4 +232,28 @@ fn frame(update: &Update, number: u32, cells: &[Cell], origins: &[u32]) -> Float
     };
     let places = (0..cells.len()).filter_map(place).collect();
     FloatFrame { number, picture: Picture { width, height, pixels }, reached, places }
+}
+
+/// The floats as a contender.
+pub struct InFloats {
+    /// The maps.
+    pub maps: Box<dyn Floats>,
+    /// What is put into holes.
+    pub rung: FillMode,
+    /// Pixels of a map.
+    pub cells: usize,
+}
+
+impl Contender for InFloats {
+    fn bytes(&self) -> usize {
+        self.maps.bytes_per_pixel() * self.cells
+    }
+
+    fn restart(&mut self, update: &Update) {
+        self.maps.load(update);
+    }
+
+    fn step(&mut self) {
+        self.maps.step(self.rung, &mut []);
+    }
 }

@@ -1,36 +1,21 @@
 //! The legends of the plots: rungs by colour, roundings by shape, bytes by size.
 
-use galpix_core::{FillMode, Rounding};
+use galpix_core::Rounding;
+use maud::{Markup, PreEscaped, html};
 
 use super::report::{Point, Scheme, SourceReport};
-use crate::engine::fill::{Fill, Inpaint, Kind};
+use crate::engine::fill::Fill;
 use crate::output::html::scatter::{self, Shape};
 use crate::output::html::style::Ink;
 use crate::output::html::text::Text;
+use crate::study::ink;
 
 /// The colour of a point.
 pub fn ink(point: &Point) -> Ink {
     if point.scheme == Scheme::F32 {
         return Ink::Label;
     }
-    fill_ink(Fill::all().into_iter().find(|fill| fill.name() == point.rung).unwrap_or_default())
-}
-
-/// The colour of what is put into holes.
-pub(crate) const fn fill_ink(fill: Fill) -> Ink {
-    let rung = match fill {
-        Fill::Inpaint(Inpaint { kind: Kind::PushPull, .. }) => return Ink::Bound,
-        Fill::Inpaint(Inpaint { kind: Kind::Metamer, .. }) => return Ink::Lost,
-        Fill::Rung(rung) => rung,
-    };
-    match rung {
-        FillMode::None => Ink::Collided,
-        FillMode::Hold => Ink::Hold,
-        FillMode::Debris => Ink::Holes,
-        FillMode::Bullet => Ink::Known,
-        FillMode::Galdebris => Ink::Filled,
-        FillMode::Extend => Ink::Galpix,
-    }
+    ink::named(point.rung).unwrap_or_else(|| ink::of(Fill::default()))
 }
 
 /// The shape of a point.
@@ -53,44 +38,36 @@ pub fn radius(bytes: usize) -> f64 {
     1.35 * (bytes as f64).sqrt()
 }
 
-/// A line in a legend.
-pub fn line_key(name: &str, ink: Ink, dashed: bool) -> String {
+/// Returns a line in a legend.
+pub fn line_key(name: &str, ink: Ink, dashed: bool) -> Markup {
     let kind = if dashed { "key dashed" } else { "key" };
-    format!("<span><i class=\"{kind}\" style=\"--ink:var(--{})\"></i>{}</span> ", ink.name(), Text(name))
+    html! { span { i class=(kind) style={ "--ink:var(--" (ink.name()) ")" } {} (Text(name)) } " " }
 }
 
-/// A layer in a legend.
-pub fn block_key(name: &str, ink: Ink) -> String {
-    format!("<span>{}{}</span> ", scatter::key(Shape::Square, ink, 6.0), Text(name))
+/// Returns a layer in a legend.
+pub fn block_key(name: &str, ink: Ink) -> Markup {
+    mark_key(name, Shape::Square, ink, 6.0)
 }
 
-/// The legend of the points: rungs by colour, roundings by shape, bytes by size.
-pub fn key(source: &SourceReport, bounds: bool) -> String {
-    let entry =
-        |shape, ink, radius, name: &str| format!("<span>{}{}</span> ", scatter::key(shape, ink, radius), Text(name));
-    let mut legend = String::new();
-    for fill in Fill::all() {
-        if source.points.iter().any(|point| point.scheme == Scheme::Galpix && point.rung == fill.name()) {
-            legend += &entry(Shape::Disc, fill_ink(fill), 5.0, fill.name());
+fn mark_key(name: &str, shape: Shape, ink: Ink, radius: f64) -> Markup {
+    html! { span { (PreEscaped(scatter::key(shape, ink, radius))) (Text(name)) } " " }
+}
+
+/// Returns the legend of the points: rungs by colour, roundings by shape, bytes by size.
+pub fn key(source: &SourceReport, bounds: bool) -> Markup {
+    let points = &source.points;
+    let used = |fill: &Fill| points.iter().any(|p| p.scheme == Scheme::Galpix && p.rung == fill.name());
+    let rounded = |rounding: &Rounding| points.iter().any(|point| point.rounding == Some(rounding.name()));
+    let sizes = points.iter().map(|point| point.bytes);
+    let ends = sizes.clone().min().into_iter().chain(sizes.max());
+    html! {
+        @for fill in Fill::all().into_iter().filter(used) { (mark_key(fill.name(), Shape::Disc, ink::of(fill), 5.0)) }
+        @for rounding in Rounding::ALL.into_iter().filter(rounded) {
+            (mark_key(rounding.name(), rounding_shape(rounding), Ink::Axis, 5.0))
         }
+        @if points.iter().any(|point| point.scheme == Scheme::F32) { (mark_key("f32", Shape::Cross, Ink::Label, 5.0)) }
+        @for bytes in ends { (mark_key(&format!("{bytes} bytes"), Shape::Disc, Ink::Axis, radius(bytes))) }
+        (line_key("front", Ink::Guide, false))
+        @if bounds { (line_key("at most", Ink::Bound, false)) }
     }
-    for rounding in Rounding::ALL {
-        if source.points.iter().any(|point| point.rounding == Some(rounding.name())) {
-            legend += &entry(rounding_shape(rounding), Ink::Axis, 5.0, rounding.name());
-        }
-    }
-    if source.points.iter().any(|point| point.scheme == Scheme::F32) {
-        legend += &entry(Shape::Cross, Ink::Label, 5.0, "f32");
-    }
-    let sizes = source.points.iter().map(|point| point.bytes);
-    if let (Some(least), Some(most)) = (sizes.clone().min(), sizes.max()) {
-        for bytes in [least, most] {
-            legend += &entry(Shape::Disc, Ink::Axis, radius(bytes), &format!("{bytes} bytes"));
-        }
-    }
-    legend += &line_key("front", Ink::Guide, false);
-    if bounds {
-        legend += &line_key("at most", Ink::Bound, false);
-    }
-    legend
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! design (configurations) ─┬─▶ measure (error of each) ──┐
-//!                          ├─▶ timing (time of each) ────┼─▶ report ─▶ pareto ─▶ table, csv, page
+//!                          ├─▶ timing (time of each) ────┼─▶ report ─▶ pareto ─▶ columns, text, page
 //!                          └─▶ float (the same in f32) ──┘
 //!            causes (frame by frame) and rates (updates every N frames) for the middle configuration
 //! ```
@@ -10,37 +10,35 @@
 //! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
 
 pub mod causes;
-pub mod csv;
+mod columns;
 pub mod design;
 mod figures;
 pub mod float;
 mod legend;
 pub mod measure;
-pub mod page;
+mod page;
 pub mod pareto;
+mod points;
 pub mod ranges;
 pub mod rates;
 pub mod reference;
 pub mod report;
 pub mod stand_in;
-pub mod table;
-pub mod timing;
+mod text;
 
-mod points;
+use galpix_core::{Bits, BudgetError, Dynamic, Layout, Rounding};
 
-pub(crate) use legend::fill_ink;
-
-use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Rounding};
-
-use crate::engine::Engine;
+use super::job::{ExperimentError, Job, Request};
+use super::timing::Effort;
+use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
+use crate::engine::fill::Fill;
+use crate::output::column;
 use crate::source::Source;
-use crate::study::run::{ExperimentError, Request, demand};
-use crate::update::Known;
+use crate::update::{Known, Update};
 use design::{Axes, Configuration, Extent, Kept, Step};
 use ranges::Ranges;
 use reference::Reference;
 use report::{DemandReport, Fronts, Point, Scheme, SourceReport, Summary};
-use timing::Effort;
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -52,18 +50,71 @@ pub struct Plan {
     /// Roundings to choose from.
     pub roundings: Vec<Rounding>,
     /// Rungs to choose from.
-    pub rungs: Vec<crate::engine::fill::Fill>,
+    pub rungs: Vec<Fill>,
     /// How many configurations.
     pub extent: Extent,
 }
 
-/// What a study tells of its progress.
-#[derive(Clone, Copy, Debug)]
-pub enum Work {
-    /// So many pieces of work more.
-    Ahead(u64),
-    /// One piece is done.
-    Done,
+/// Everything that was measured.
+pub type Document = super::Document<NoExtra, SourceReport>;
+
+impl Study for Plan {
+    type Source = Source;
+    type Job<'s> = Job<'s>;
+    type Report = SourceReport;
+    type Extra = NoExtra;
+
+    fn name<'a>(&self, source: &'a Source) -> &'a str {
+        source.name()
+    }
+
+    fn resolve<'s>(&self, source: &'s Source) -> Result<Job<'s>, StudyError> {
+        self.job(source).map_err(StudyError::unusable)
+    }
+
+    fn pieces(&self, _job: &Job<'_>) -> u64 {
+        0
+    }
+
+    fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
+        study(job, self, stage.tell).map(Found::Report).map_err(StudyError::unusable)
+    }
+
+    fn text(&self, report: &SourceReport) -> String {
+        text::text(report)
+    }
+
+    fn extra(&self, _silent: &Silent) -> NoExtra {
+        NoExtra {}
+    }
+
+    fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
+        let csv = column::csv(&columns::columns(), document.sources.iter().flat_map(columns::rows));
+        super::files("error", csv, self.json(document), Vec::new(), page::html(document))
+    }
+}
+
+impl Plan {
+    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the others
+    /// have a budget too.
+    ///
+    /// *Errors:* a demand or lanes that give no budget.
+    fn job<'s>(&self, source: &'s Source) -> Result<Job<'s>, ExperimentError> {
+        let job = Job::with_layout(source, &self.request, |update| self.axes(update).middle().kept.layout())?;
+        for kept in self.axes(&job.update).kept {
+            let bits = Step::DERIVED.bits(job.demand, kept.layout(), &Ranges::default())?;
+            Dynamic::new(bits, kept.layout())?;
+        }
+        Ok(job)
+    }
+
+    /// Returns what is measured of an update: luminosity only where it has a rate.
+    fn axes(&self, update: &Update) -> Axes {
+        let lit = update.samples.iter().any(|sample| sample.known == Known::Motion && sample.luminosity_rate != 0.0);
+        let useful: Vec<Kept> = self.kept.iter().copied().filter(|&kept| lit || kept != Kept::Luminosity).collect();
+        let kept = if useful.is_empty() { self.kept.clone() } else { useful };
+        Axes { kept, roundings: self.roundings.clone(), rungs: self.rungs.clone() }
+    }
 }
 
 /// Cells that are timed in a round, for one configuration.
@@ -72,56 +123,32 @@ const TIMED_CELLS: usize = 1_500_000;
 const LARGE: usize = 100_000;
 
 /// A source on its way to a report.
-pub(crate) struct Study<'s> {
+pub(crate) struct Run<'s> {
+    job: &'s Job<'s>,
     reference: Reference<'s>,
-    request: Request,
-    demand: Demand,
     ranges: Ranges,
     effort: Effort,
 }
 
-impl Study<'_> {
+impl Run<'_> {
     fn bits(&self, kept: Kept, step: Step) -> Result<Bits, BudgetError> {
-        step.bits(self.demand, kept.layout(), &self.ranges)
+        step.bits(self.job.demand, kept.layout(), &self.ranges)
     }
-}
-
-/// The lanes that are measured for an update: luminosity only where it has a rate.
-fn useful(update: &crate::update::Update, kept: &[Kept]) -> Vec<Kept> {
-    let lit = update.samples.iter().any(|sample| sample.known == Known::Motion && sample.luminosity_rate != 0.0);
-    let useful: Vec<Kept> = kept.iter().copied().filter(|&kept| lit || kept != Kept::Luminosity).collect();
-    if useful.is_empty() { kept.to_vec() } else { useful }
-}
-
-/// Checks that the budget of a source exists, without running anything.
-///
-/// *Errors:* a demand or lanes that give no budget.
-pub fn check(source: &Source, plan: &Plan) -> Result<(), ExperimentError> {
-    let update = source.update();
-    let demand = demand(&update, plan.request.frames.unwrap_or(source.frames()), &plan.request);
-    for kept in useful(&update, &plan.kept) {
-        let bits = Step::DERIVED.bits(demand, kept.layout(), &Ranges::default())?;
-        Dynamic::new(bits, kept.layout())?;
-    }
-    Ok(())
 }
 
 /// Measures a source; `tell` is told how it gets on.
-///
-/// *Errors:* a budget that cannot exist or does not fit.
-pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result<SourceReport, ExperimentError> {
-    let frames = plan.request.frames.unwrap_or(source.frames());
+fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
+    let Job { source, frames, demand, .. } = *job;
     let reference = Reference::new(source, frames);
     let update = &reference.update;
-    let demand = demand(update, frames, &plan.request);
-    let axes = Axes { kept: useful(update, &plan.kept), roundings: plan.roundings.clone(), rungs: plan.rungs.clone() };
+    let axes = plan.axes(update);
     let cells = update.samples.len();
     let effort = Effort {
         rounds: if cells > LARGE { 2 } else { 3 },
         frames: frames.min((TIMED_CELLS / cells.max(1)).clamp(4, 12) as u32),
     };
     let ranges = Ranges::of(update, frames);
-    let study = Study { request: plan.request, demand, ranges, effort, reference };
+    let run = Run { job, ranges, effort, reference };
     let mut left_out = Vec::new();
     let extent = match plan.extent {
         Extent::Sensible if cells > LARGE => {
@@ -131,25 +158,20 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
         }
         extent => extent,
     };
-    let points = study.points(&axes.design(extent), &mut left_out, &tell)?;
+    let points = run.points(&axes.design(extent), &mut left_out, tell)?;
 
     let middle = axes.middle();
-    let bits = study.bits(middle.kept, middle.step)?;
-    let format = Dynamic::new(bits, middle.kept.layout())?;
-    let settings = study.settings(&middle, format.record());
+    let job = job.with_rounding(middle.rounding).with_fill(middle.rung);
     tell(Work::Ahead(1));
-    let (causes, shown) = causes::causes(&study.reference, &middle, bits, settings)?;
+    let (causes, shown) = causes::causes(&run.reference, &middle, job.bits, job.settings)?;
     let rates = match source {
-        Source::Scene(scene) => {
-            let engine = Engine::new(format, settings).inpainting(middle.rung.inpaint());
-            rates::rates(*scene, frames, &engine)?
-        }
+        Source::Scene(scene) => rates::rates(*scene, frames, &job.engine())?,
         Source::Capture(_) => Vec::new(),
     };
     tell(Work::Done);
-    let ages = if rates.is_empty() { rates::ages(&study.reference.hold, &shown) } else { Vec::new() };
-    let hold = Summary::of(&measure::hold(&study.reference));
-    left_out.extend(omissions(&study, source, middle));
+    let ages = if rates.is_empty() { rates::ages(&run.reference.hold, &shown) } else { Vec::new() };
+    let hold = Summary::of(&measure::hold(&run.reference));
+    left_out.extend(omissions(&run, source, middle));
     let alone: Vec<&str> =
         axes.kept.iter().filter(|&&kept| stand_in::of(kept).is_none()).map(|kept| kept.name()).collect();
     if !alone.is_empty() {
@@ -158,7 +180,7 @@ pub fn study(source: &Source, plan: &Plan, tell: impl Fn(Work) + Sync) -> Result
             alone.join(", ")
         ));
     }
-    let reference = &study.reference;
+    let reference = &run.reference;
     Ok(SourceReport {
         source: source.name().to_owned(),
         about: source.about().to_owned(),
@@ -197,16 +219,16 @@ fn fronts(points: &[Point]) -> Fronts {
 }
 
 /// What was left out and what cannot be known, a sentence each.
-fn omissions(study: &Study<'_>, source: &Source, middle: Configuration) -> Vec<String> {
-    let reference = &study.reference;
+fn omissions(run: &Run<'_>, source: &Source, middle: Configuration) -> Vec<String> {
+    let reference = &run.reference;
     let mut left_out = vec![format!(
         "Positions were looked at in {} of {} frames, pictures in {}.",
         reference.looked.len(),
         reference.frames,
         reference.truths.len()
     )];
-    if study.effort.frames < reference.frames {
-        left_out.push(format!("The first {} frames were timed.", study.effort.frames));
+    if run.effort.frames < reference.frames {
+        left_out.push(format!("The first {} frames were timed.", run.effort.frames));
     }
     match source {
         Source::Capture(_) => {

@@ -1,11 +1,17 @@
 //! The report as a page: how to read it, a section for each source, and what it was made with.
 
+use maud::{Markup, PreEscaped, html};
+
+use super::Document;
+use super::columns::{Row, columns};
 use super::figures;
 use super::rates::Rate;
-use super::report::{Document, Point, Scheme, SourceReport};
-use crate::output::html::{self, text::Text, text::figure};
+use super::report::{Point, Scheme, SourceReport};
+use crate::output::column;
+use crate::output::html::text::figure;
+use crate::output::html::{self as page, Head};
 
-/// The document as a self-contained page.
+/// Returns the document as a self-contained page.
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
@@ -14,13 +20,15 @@ pub fn html(document: &Document) -> String {
          left is better in both; what nothing beats is on the front and has a letter."
             .to_owned(),
     ];
-    let facts = html::facts(document.version, &document.command, &document.machine, document.seconds);
-    let sections: String = document.sources.iter().enumerate().map(|(index, source)| section(index, source)).collect();
-    let main = [READING, &sections, FOOT].concat();
-    html::document("galpix: error against run time", &intro, &facts, &main, "")
+    let main = html! {
+        (page::reading(READING))
+        @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
+        (page::notes("Left out of all this", &LEFT_OUT.map(str::to_owned)))
+    };
+    page::document("galpix: error against run time", &intro, &document.facts(), &main, &Markup::default())
 }
 
-const READING: &str = "<section><h2>How to read it</h2><ul class=\"reading\">\
+const READING: &str = "\
 <li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median, beside a memory copy of \
 the same bytes in the same run (<b>\u{00D7} copy</b>). It was measured with a stand-in of the same lanes and the nearest number \
 of words, on the same pictures; single bits hardly matter to it. <b>Run-time form</b> is the simulator\u{2019}s own, with the \
@@ -29,17 +37,17 @@ budget chosen at run time.</li>\
 cell. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick above a point</span> is what it can at most be: the certificate, \
 and what the lanes that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
 <li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>Missing</b> cells are those that no galpixel of the \
-update reached, before filling. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>\
-</ul></section>";
+update reached, before filling. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
 
-const FOOT: &str = "<section><h2>Left out of all this</h2><ul class=\"notes\">\
-<li>Depth has the same steps as x and y; budgets that shave depth alone were not tried.</li>\
-<li>The memory copy is one of aligned memory by the C library; where a map fits into a cache, so does the copy, and the ratio \
-is that of two things in the cache.</li>\
-<li>Floats are not tried with the rungs that tell surfaces apart, and galpix is not tried with several threads.</li>\
-<li>error.csv and error.json beside this page hold every figure.</li></ul></section>";
+const LEFT_OUT: [&str; 4] = [
+    "Depth has the same steps as x and y; budgets that shave depth alone were not tried.",
+    "The memory copy is one of aligned memory by the C library; where a map fits into a cache, so does the copy, and the ratio \
+     is that of two things in the cache.",
+    "Floats are not tried with the rungs that tell surfaces apart, and galpix is not tried with several threads.",
+    "error.csv and error.json beside this page hold every figure.",
+];
 
-fn section(index: usize, source: &SourceReport) -> String {
+fn section(index: usize, source: &SourceReport) -> Markup {
     let demand = source.demand;
     let tags = [
         ("display", format!("{}\u{00D7}{}", source.width, source.height)),
@@ -50,20 +58,21 @@ fn section(index: usize, source: &SourceReport) -> String {
         ),
         ("points", source.points.len().to_string()),
     ];
-    [
-        html::source_head(index, &source.source, &source.about, &tags),
-        gain(source),
-        format!("<div class=\"plots two\">{}</div>", figures::all(source)),
-        fronts(source),
-        points(source),
-        left_out(source),
-        "</section>".to_owned(),
-    ]
-    .concat()
+    let body = html! {
+        (gain(source))
+        div class="plots two" { (figures::all(source)) }
+        (fronts(source))
+        details {
+            summary { "All " (source.points.len()) " points" }
+            (table(source, &source.points, |_, point| point.id.to_string()))
+        }
+        (page::list(&source.left_out))
+    };
+    page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
 }
 
 /// What galpixels buy, in a sentence or two.
-fn gain(source: &SourceReport) -> String {
+fn gain(source: &SourceReport) -> Markup {
     let better = |rate: &&Rate| rate.every > 1 && rate.hold_needs_every < rate.every;
     let mut needed: Vec<u32> = source.rates.iter().filter(better).map(|rate| rate.hold_needs_every).collect();
     needed.dedup();
@@ -90,88 +99,50 @@ fn gain(source: &SourceReport) -> String {
             ))
         })
     };
-    match (sentences.is_empty(), source.rates.is_empty()) {
-        (false, _) => format!(
-            "<p class=\"promise good\">By mean FLIP over all frames, galpix makes {}, with sample-and-hold.</p>",
-            sentences.join("; ")
-        ),
-        (true, true) => aged().map_or_else(String::new, |text| format!("<p class=\"promise good\">{text}.</p>")),
-        (true, false) => {
-            "<p class=\"promise poor\">At no rate does galpix save an update here: sample-and-hold is as good.</p>"
-                .to_owned()
+    html! {
+        @match (sentences.is_empty(), source.rates.is_empty()) {
+            (false, _) => p class="promise good" {
+                "By mean FLIP over all frames, galpix makes " (PreEscaped(sentences.join("; "))) ", with sample-and-hold."
+            },
+            (true, true) => { @if let Some(text) = aged() { p class="promise good" { (PreEscaped(text)) "." } } },
+            (true, false) => p class="promise poor" {
+                "At no rate does galpix save an update here: sample-and-hold is as good."
+            },
         }
     }
 }
 
-const HEAD: &str = "<thead><tr><th></th><th>lanes</th><th>budget</th><th>rounding</th><th>rung</th><th>bytes</th>\
-<th>\u{00B5}s a frame</th><th>\u{00D7} copy</th><th>run-time form, \u{00B5}s</th><th>worst px</th><th>at most px</th><th>mean px</th>\
-<th>worst, true motion px</th><th>PSNR dB</th><th>SSIM</th><th>FLIP</th><th>missing %</th></tr></thead>";
+/// Returns a table of points, each named by its place and itself.
+fn table<'p>(
+    source: &SourceReport,
+    points: impl IntoIterator<Item = &'p Point>,
+    name: impl Fn(usize, &Point) -> String,
+) -> Markup {
+    let points = points.into_iter().enumerate();
+    let rows: Vec<Row<'_>> = points.map(|(place, point)| Row::new(source, point, name(place, point))).collect();
+    column::html("rows points", &columns(), &rows)
+}
 
-fn row(point: &Point, name: &str) -> String {
-    let summary = &point.summary;
-    let (budget, rounding) = match point.scheme {
-        Scheme::Galpix => (point.budget.as_str(), point.rounding.unwrap_or("")),
-        Scheme::F32 => ("f32", "\u{2013}"),
+/// Returns the fronts, named as in the plots, with floats beneath.
+fn fronts(source: &SourceReport) -> Markup {
+    let fronts = [
+        ("Time against the worst position error", &source.fronts.position),
+        ("Time against FLIP", &source.fronts.picture),
+        ("Bytes against the worst position error", &source.fronts.bytes),
+    ];
+    let on = |front: &[usize]| -> Vec<&Point> {
+        front.iter().filter_map(|id| source.points.iter().find(|point| point.id == *id)).collect()
     };
-    let figures = [
-        figure(point.compile_time.map(|time| time.frame_us), 0),
-        figure(point.compile_time.map(|time| time.x_copy), 1),
-        figure(point.run_time.map(|time| time.frame_us), 0),
-        figure(summary.worst_px, 4),
-        figure(summary.bound_px, 4),
-        figure(summary.mean_px, 4),
-        figure(summary.truth_worst_px, 3),
-        figure(summary.psnr_db, 2),
-        figure(summary.ssim, 4),
-        figure(summary.flip, 4),
-        figure(summary.missing_percent, 1),
-    ]
-    .map(|text| format!("<td>{text}</td>"))
-    .concat();
-    format!(
-        "<tr><td>{}</td><td class=\"word\">{}</td><td class=\"word\">{}</td><td class=\"word\">{}</td><td class=\"word\">{}</td>\
-         <td>{}</td>{figures}</tr>",
-        Text(name),
-        point.lanes,
-        Text(budget),
-        rounding,
-        point.rung,
-        point.bytes
-    )
-}
-
-fn table(rows: &str) -> String {
-    format!("<div class=\"wide\"><table class=\"rows points\">{HEAD}<tbody>{rows}</tbody></table></div>")
-}
-
-/// The fronts, named as in the plots, with floats beneath.
-fn fronts(source: &SourceReport) -> String {
-    let part = |title: &str, front: &[usize]| {
-        let named = front.iter().enumerate().filter_map(|(place, id)| {
-            let point = source.points.iter().find(|point| point.id == *id)?;
-            Some(row(point, &figures::letter(place)))
-        });
-        let rows: String = named.collect();
-        if rows.is_empty() { rows } else { format!("<h3>{title}</h3>{}", table(&rows)) }
-    };
-    let floats: String =
-        source.points.iter().filter(|point| point.scheme == Scheme::F32).map(|point| row(point, "f32")).collect();
-    [
-        "<h3 class=\"over\">The fronts, by the letters of the plots</h3>".to_owned(),
-        part("Time against the worst position error", &source.fronts.position),
-        part("Time against FLIP", &source.fronts.picture),
-        part("Bytes against the worst position error", &source.fronts.bytes),
-        if floats.is_empty() { floats } else { format!("<h3>The same scheme in 32-bit floats</h3>{}", table(&floats)) },
-    ]
-    .concat()
-}
-
-fn points(source: &SourceReport) -> String {
-    let rows: String = source.points.iter().map(|point| row(point, &point.id.to_string())).collect();
-    format!("<details><summary>All {} points</summary>{}</details>", source.points.len(), table(&rows))
-}
-
-fn left_out(source: &SourceReport) -> String {
-    let items: String = source.left_out.iter().map(|text| format!("<li>{}</li>", Text(text))).collect();
-    format!("<ul class=\"notes\">{items}</ul>")
+    let floats: Vec<&Point> = source.points.iter().filter(|point| point.scheme == Scheme::F32).collect();
+    html! {
+        h3.over { "The fronts, by the letters of the plots" }
+        @for (title, front) in fronts.into_iter().filter(|(_, front)| !front.is_empty()) {
+            h3 { (title) }
+            (table(source, on(front), |place, _| figures::letter(place)))
+        }
+        @if !floats.is_empty() {
+            h3 { "The same scheme in 32-bit floats" }
+            (table(source, floats, |_, _| "f32".to_owned()))
+        }
+    }
 }

@@ -7,11 +7,12 @@ use rayon::prelude::*;
 
 use super::design::{Configuration, Kept, Step};
 use super::report::{FrameError, Point, Scheme, Summary};
-use super::timing::{Engine, InFloats, Maker, Time, race};
-use super::{Study, Work, float, measure, stand_in};
+use super::{Run, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::engine::fill::Fill;
-use crate::study::run::{ExperimentError, Request, settings};
+use crate::study::Work;
+use crate::study::job::{ExperimentError, Request};
+use crate::study::timing::{Engine, Maker, Time, race};
 
 /// A configuration whose budget exists.
 struct Candidate {
@@ -29,11 +30,11 @@ impl Candidate {
     }
 }
 
-impl Study<'_> {
+impl Run<'_> {
     /// How the frames of a configuration are made in maps of a stored form.
     pub(super) fn settings(&self, configuration: &Configuration, record: &Record) -> Settings {
-        let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.request };
-        settings(record, self.reference.update.depth_kind, &request)
+        let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.job.request };
+        request.settings(record, self.job.update.depth_kind)
     }
 
     fn candidate(&self, configuration: Configuration) -> Result<Candidate, BudgetError> {
@@ -48,7 +49,7 @@ impl Study<'_> {
         &self,
         design: &[Configuration],
         left_out: &mut Vec<String>,
-        tell: &(impl Fn(Work) + Sync),
+        tell: &(dyn Fn(Work<'_>) + Sync),
     ) -> Result<Vec<Point>, ExperimentError> {
         let mut candidates: Vec<Candidate> = Vec::new();
         for &configuration in design {
@@ -110,7 +111,7 @@ impl Study<'_> {
         let certify = |&(kind, candidate): &(Arithmetic, &Candidate)| {
             let record = candidate.format.record();
             let rounding = candidate.settings.rounding;
-            (kind, Certificate::of(&record.scales[0], record.layout().acceleration, rounding, self.demand.prop))
+            (kind, Certificate::of(&record.scales[0], record.layout().acceleration, rounding, self.job.demand.prop))
         };
         kinds.par_iter().map(certify).collect()
     }
@@ -159,7 +160,7 @@ impl Study<'_> {
         candidates: &[Candidate],
         floats: &[Configuration],
         points: &mut [Point],
-        tell: &(impl Fn(Work) + Sync),
+        tell: &(dyn Fn(Work<'_>) + Sync),
     ) {
         let update = &self.reference.update;
         let mut makers: Vec<Maker<'_>> = Vec::new();
@@ -173,7 +174,7 @@ impl Study<'_> {
             let cells = update.samples.len();
             makers.push(Box::new(move || {
                 let maps = float::maps(configuration.kept, update.width, update.height)?;
-                Some(Box::new(InFloats { maps, rung: configuration.rung.rung(), cells }))
+                Some(Box::new(float::InFloats { maps, rung: configuration.rung.rung(), cells }))
             }));
         }
         let mut fixed: Vec<(String, Fill)> = Vec::new();

@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::causes::FrameCauses;
 use super::rates::{Age, Rate};
-use super::timing::{Effort, Time};
+use crate::metric::stats;
+use crate::study::timing::{Effort, Time};
 
 /// A frame as a picture, beside the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -100,10 +101,7 @@ impl Summary {
     #[must_use]
     pub fn of(frames: &[FrameError]) -> Self {
         let worst = |column: &dyn Fn(&FrameError) -> Option<f64>| frames.iter().filter_map(column).reduce(f64::max);
-        let mean = |column: &dyn Fn(&FrameError) -> Option<f64>| {
-            let values: Vec<f64> = frames.iter().filter_map(column).collect();
-            (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-        };
+        let mean = |column: &dyn Fn(&FrameError) -> Option<f64>| stats::mean(frames.iter().filter_map(column));
         let of_pictures = |column: &dyn Fn(&PictureError) -> Option<f64>| mean(&|frame| column(&frame.picture?));
         // A bound that is missing in one frame is none.
         let bound = |column: &dyn Fn(&FrameError) -> Option<f64>| {
@@ -241,19 +239,4 @@ pub struct SourceReport {
     pub ages: Vec<Age>,
     /// What was left out and what cannot be known, a sentence each.
     pub left_out: Vec<String>,
-}
-
-/// The whole document.
-#[derive(Clone, Debug, Serialize)]
-pub struct Document {
-    /// Of galpix.
-    pub version: &'static str,
-    /// How it was called.
-    pub command: String,
-    /// The processor, where it says its name.
-    pub machine: String,
-    /// Seconds that all took.
-    pub seconds: f64,
-    /// One for each source.
-    pub sources: Vec<SourceReport>,
 }

@@ -6,8 +6,8 @@
 use galpix_core::{Bits, Demand, Layout, Profile, Record, Settings, Static};
 
 use super::design::Kept;
-use super::timing::{Contender, Engine};
 use crate::engine::fill::Inpaint;
+use crate::study::timing::{Contender, Engine};
 use crate::update::Update;
 
 /// The design numbers of all stand-ins: the paper's.

@@ -8,10 +8,12 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use super::holes::Holes;
-use super::report::{Document, FrameCells};
+use super::Document;
+use super::report::FrameCells;
+use crate::output::save::file_name;
 use crate::picture::Picture;
 use crate::source::Source;
+use crate::study::holes::Holes;
 
 /// A file that cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -127,7 +129,7 @@ pub fn index(document: &Document) -> serde_json::Result<String> {
     let index = Index {
         version: document.version,
         command: &document.command,
-        fovea: document.fovea,
+        fovea: document.extra.fovea,
         sources: sources.collect(),
     };
     Ok(serde_json::to_string_pretty(&index)? + "\n")
@@ -135,5 +137,5 @@ pub fn index(document: &Document) -> serde_json::Result<String> {
 
 /// The folder of a frame, from the root. A capture's name comes from outside.
 fn frame_folder(source: &str, frame: u32) -> String {
-    format!("{}/{frame:04}", crate::cli::file_name(source))
+    format!("{}/{frame:04}", file_name(source))
 }

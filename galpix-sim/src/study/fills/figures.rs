@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::holes::{Holes, count};
 use crate::metric;
 use crate::metric::area::Window;
+use crate::metric::stats::weighted_mean;
 use crate::picture::Picture;
+use crate::study::holes::{Holes, count};
 
 /// Cells around the disoccluded ones that are looked at. No filter of FLIP or SSIM reaches farther, and farther out a picture and the
 /// truth are the same.
@@ -75,11 +76,9 @@ fn around(holes: &Holes, shown: &Picture, metric: Metric) -> Option<f64> {
     metric(&crop(shown), &crop(&holes.truth), Some(&window.of(&holes.disoccluded, width)))
 }
 
-/// The mean of a figure by weights; `None` without any.
+/// Returns the mean of a figure by weights, where it is known; `None` without any.
 fn mean(weighted: impl Iterator<Item = (f64, Option<f64>)>) -> Option<f64> {
-    let known = weighted.filter_map(|(weight, figure)| Some((weight, figure.filter(|_| weight > 0.0)?)));
-    let (sum, weights) = known.fold((0.0, 0.0), |(sum, all), (weight, figure)| (sum + weight * figure, all + weight));
-    (weights > 0.0).then(|| sum / weights)
+    weighted_mean(weighted.filter_map(|(weight, figure)| Some((weight, figure?))))
 }
 
 /// The weights of a frame: its disoccluded cells, and those that are so in the frame before as well.

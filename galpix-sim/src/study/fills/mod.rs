@@ -2,32 +2,33 @@
 //!
 //! ```text
 //! holes (the warp alone: which cells are judged) ─┬─▶ figures (of each fill's pictures) ─┐
-//! case (the fills) ───────────────────────────────┼─▶ times (of each fill's frames) ─────┼─▶ report ─▶ table, csv, page
+//! case (the fills) ───────────────────────────────┼─▶ times (of each fill's frames) ─────┼─▶ report ─▶ columns, page
 //!                                                 └─▶ export (pictures for other programs) and crops
 //! ```
 //!
 //! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
 
 pub mod case;
-pub mod crops;
-pub mod csv;
+mod columns;
 pub mod export;
 pub mod figures;
-pub mod holes;
-pub mod page;
+mod page;
 pub mod report;
-pub mod table;
-pub mod times;
+mod times;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
+use super::crops;
+use super::holes::{self, Holes, count};
+use super::job::{ExperimentError, Job, Request};
+use super::{File, Found, Nothing, Silent, Stage, Study, StudyError, Work, run, silent};
+use crate::output::column;
 use crate::picture::Picture;
 use crate::source::Source;
-use crate::study::run::{self, ExperimentError, Request};
 use case::Case;
 use export::{Export, ExportError};
 use figures::{Figures, TruthFigures, Weight};
-use holes::{Holes, count};
 use report::{FillReport, FrameCells, FrameFigures, SourceReport};
 
 /// What to compare.
@@ -39,6 +40,60 @@ pub struct Plan {
     pub cases: Vec<Case>,
     /// The radius of a disc in the middle of the display, in pixels, inside of which nothing is judged.
     pub fovea: Option<u32>,
+}
+
+/// What is said beside the sources.
+#[derive(Clone, Debug, Serialize)]
+pub struct Extra {
+    /// The radius of the disc inside of which nothing is judged.
+    pub fovea: Option<u32>,
+    /// The sources in which nothing is disoccluded.
+    pub nothing_disoccluded: Vec<String>,
+}
+
+/// Everything that was measured.
+pub type Document = super::Document<Extra, SourceReport>;
+
+impl Study for Plan {
+    type Source = Source;
+    type Job<'s> = Job<'s>;
+    type Report = SourceReport;
+    type Extra = Extra;
+
+    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+
+    fn name<'a>(&self, source: &'a Source) -> &'a str {
+        source.name()
+    }
+
+    fn resolve<'s>(&self, source: &'s Source) -> Result<Job<'s>, StudyError> {
+        Job::resolve(source, &self.request).map_err(StudyError::unusable)
+    }
+
+    fn pieces(&self, _job: &Job<'_>) -> u64 {
+        self.cases.len() as u64
+    }
+
+    fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
+        let export = stage.out.map(Export::new);
+        let report = compare(job, self, export.as_ref(), || (stage.tell)(Work::Done)).map_err(StudyError::unusable)?;
+        Ok(report.map_or(Found::Nothing(Nothing::Disoccluded), Found::Report))
+    }
+
+    fn text(&self, report: &SourceReport) -> String {
+        columns::text(report)
+    }
+
+    fn extra(&self, all: &Silent) -> Extra {
+        Extra { fovea: self.fovea, nothing_disoccluded: silent(all, Nothing::Disoccluded) }
+    }
+
+    fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
+        let csv = column::csv(&columns::columns(), document.sources.iter().flat_map(columns::rows));
+        let index = export::index(document).map_err(StudyError::failed)?;
+        let further = vec![("index.json".to_owned(), index.into_bytes())];
+        super::files("fills", csv, self.json(document), further, page::html(document))
+    }
 }
 
 /// Why a study cannot be made.
@@ -61,14 +116,24 @@ pub fn study(
     export: Option<&Export>,
     done: impl Fn() + Sync,
 ) -> Result<Option<SourceReport>, FillsError> {
-    let holes = holes::of(source, &plan.request, plan.fovea)?;
+    compare(&Job::resolve(source, &plan.request)?, plan, export, done)
+}
+
+/// Compares the fills on a job, as [`study`] does.
+fn compare(
+    job: &Job<'_>,
+    plan: &Plan,
+    export: Option<&Export>,
+    done: impl Fn() + Sync,
+) -> Result<Option<SourceReport>, FillsError> {
+    let holes = holes::of(job, plan.fovea)?;
     let Some(largest) = crops::largest(&holes) else { return Ok(None) };
     if let Some(export) = export {
-        holes.iter().try_for_each(|holes| export.truth(source, holes))?;
+        holes.iter().try_for_each(|holes| export.truth(job.source, holes))?;
     }
     let weights: Vec<Weight> = each(&holes).map(|(before, now)| Weight::of(before, now)).collect();
     let truths: Vec<TruthFigures> = each(&holes).map(|(before, now)| figures::truth(before, now)).collect();
-    let judged = Judged { source, plan, holes: &holes, truths: &truths, export };
+    let judged = Judged { job, holes: &holes, truths: &truths, export };
     let shown: Vec<Shown> = plan
         .cases
         .par_iter()
@@ -78,7 +143,7 @@ pub fn study(
             shown
         })
         .collect::<Result<_, _>>()?;
-    let times = times::of(source, plan)?;
+    let times = times::of(job, &plan.cases);
     let mut crops = crops::of_truth(&holes, &largest);
     let fills = shown.into_iter().zip(&plan.cases).zip(times).map(|((shown, case), time)| {
         crops.extend(shown.largest.map(|picture| crops::crop(case.name, &picture, &largest)));
@@ -93,13 +158,12 @@ pub fn study(
         }
     });
     let fills = fills.collect();
-    let update = source.update();
     Ok(Some(SourceReport {
-        source: source.name().to_owned(),
-        about: source.about().to_owned(),
-        width: update.display_width(),
-        height: update.display_height(),
-        frames: plan.request.frames.unwrap_or(source.frames()),
+        source: job.source.name().to_owned(),
+        about: job.source.about().to_owned(),
+        width: job.update.display_width(),
+        height: job.update.display_height(),
+        frames: job.frames,
         cells: holes.iter().map(cells).collect(),
         truth: figures::truth_summary(&truths, &weights),
         fills,
@@ -129,8 +193,7 @@ struct Shown {
 
 /// What fills are judged by.
 struct Judged<'s> {
-    source: &'s Source,
-    plan: &'s Plan,
+    job: &'s Job<'s>,
     holes: &'s [Holes],
     truths: &'s [TruthFigures],
     export: Option<&'s Export>,
@@ -139,17 +202,16 @@ struct Judged<'s> {
 impl Judged<'_> {
     /// Runs a fill; keeps its picture of frame `wanted`.
     fn show(&self, case: &Case, wanted: u32) -> Result<Shown, FillsError> {
-        let request = Request { fill: case.fill, perceptual: false, ..self.plan.request };
         let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), largest: None };
         let mut written = Ok(());
         let mut last: Option<(&Holes, Picture)> = None;
         let mut frames = self.holes.iter().zip(self.truths).peekable();
-        run::run(self.source, &request, |frame| {
+        run::job(&self.job.with_fill(case.fill).without_perception(), |frame| {
             let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
             let before = last.as_ref().map(|(before, picture)| (*before, picture));
             shown.figures.push(figures::of(holes, frame.picture, before, truth));
             if let (Some(export), Ok(())) = (self.export, &written) {
-                written = export.filled(self.source, holes, case.name, frame.picture);
+                written = export.filled(self.job.source, holes, case.name, frame.picture);
             }
             if holes.frame == wanted {
                 shown.largest = Some(frame.picture.clone());

@@ -2,9 +2,9 @@
 
 use serde::Serialize;
 
-use super::crops::{Crop, Largest};
 use super::figures::{Figures, TruthFigures};
-use crate::study::error::timing::Time;
+use crate::study::crops::{Crop, Largest};
+use crate::study::timing::Time;
 
 /// The cells of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -78,23 +78,4 @@ impl SourceReport {
     pub fn disoccluded(&self) -> u64 {
         self.cells.iter().map(|frame| frame.disoccluded).sum()
     }
-}
-
-/// Everything that was measured.
-#[derive(Clone, Debug, Serialize)]
-pub struct Document {
-    /// Of galpix.
-    pub version: &'static str,
-    /// The call, as it can be repeated.
-    pub command: String,
-    /// Where it ran.
-    pub machine: String,
-    /// How long it took.
-    pub seconds: f64,
-    /// The radius of the disc inside of which nothing is judged.
-    pub fovea: Option<u32>,
-    /// The sources in which something is disoccluded.
-    pub sources: Vec<SourceReport>,
-    /// The sources in which nothing is.
-    pub nothing_disoccluded: Vec<String>,
 }

@@ -5,10 +5,13 @@
 //! *rendering* is the rectangle of the cells in which a surface alone is seen, be it covered or not; every cell of it is
 //! counted as sent, be there something or not.
 
+mod columns;
 mod pinned;
 pub mod report;
 mod run;
 mod world;
+
+use serde::Serialize;
 
 use galpix_core::objects::Limits;
 use galpix_core::{Bits, Demand};
@@ -18,6 +21,7 @@ use report::{GraftReport, WayReport};
 use run::{Deliver, Way};
 use world::World;
 
+use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
 use crate::engine::EngineError;
 use crate::picture::Picture;
 use crate::source::scene::Scene;
@@ -80,6 +84,69 @@ pub enum GraftsError {
     /// The engine cannot be set up.
     #[error("{0}")]
     Engine(#[from] EngineError),
+}
+
+/// A scene as it was compared.
+#[derive(Serialize)]
+pub struct Seen {
+    /// Its figures.
+    #[serde(flatten)]
+    report: GraftReport,
+    #[serde(skip)]
+    pictures: Pictures,
+}
+
+impl Study for Plan {
+    type Source = &'static dyn Scene;
+    type Job<'s> = &'static dyn Scene;
+    type Report = Seen;
+    type Extra = NoExtra;
+
+    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+    const PATH: Told = Told::Nowhere;
+
+    fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
+        scene.name()
+    }
+
+    fn resolve<'s>(&self, scene: &'s &'static dyn Scene) -> Result<&'static dyn Scene, StudyError> {
+        Ok(*scene)
+    }
+
+    fn pieces(&self, _scene: &&'static dyn Scene) -> u64 {
+        WAYS
+    }
+
+    fn study(&self, scene: &&'static dyn Scene, stage: &Stage<'_>) -> Result<Found<Seen>, StudyError> {
+        let (report, pictures) = study(*scene, self, || (stage.tell)(Work::Done)).map_err(|error| match error {
+            GraftsError::Engine(_) => StudyError::failed(error),
+            _ => StudyError::unusable(error),
+        })?;
+        Ok(Found::Report(Seen { report, pictures }))
+    }
+
+    fn text(&self, seen: &Seen) -> String {
+        columns::text(&seen.report)
+    }
+
+    fn extra(&self, _silent: &Silent) -> NoExtra {
+        NoExtra {}
+    }
+
+    /// Returns the figures of the one scene, without anything around them.
+    fn json(&self, document: &super::Document<NoExtra, Seen>) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(&document.sources.first().map(|seen| &seen.report))
+    }
+
+    fn files(&self, document: &super::Document<NoExtra, Seen>) -> Result<Vec<File>, StudyError> {
+        let mut files = Vec::new();
+        for (name, picture) in document.sources.iter().flat_map(|seen| &seen.pictures.pictures) {
+            files.push((format!("{name}.png"), picture.png().map_err(StudyError::failed)?));
+        }
+        let json = self.json(document).map_err(StudyError::failed)? + "\n";
+        files.push(("graft.json".to_owned(), json.into_bytes()));
+        Ok(files)
+    }
 }
 
 /// The last picture of each way, for eyes.

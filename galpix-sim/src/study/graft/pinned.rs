@@ -8,7 +8,7 @@ use crate::metric;
 use crate::overlay::Overlay;
 use crate::picture::Picture;
 use crate::source::scene::{self, Scene};
-use crate::study::run::{self, Request};
+use crate::study::job::Request;
 use crate::update::{Known, Sample, Update};
 
 /// What became of what is pinned, in each of the ways.
@@ -83,10 +83,10 @@ pub(super) fn compare(scene: &dyn Scene, overlay: &Overlay) -> Result<PinnedRepo
 /// What the display shows in each frame after the update.
 fn pictures(update: &Update, frames: u32) -> Result<Vec<Picture>, EngineError> {
     let request = Request::default();
-    let bits = Bits::derive(run::demand(update, frames, &request))?;
+    let bits = Bits::derive(request.demand(update, frames))?;
     // RGB888: colours that are pinned are shown as they are.
     let format = Dynamic::new(bits, Layout::FULL)?;
-    let engine = Engine::new(format, run::settings(format.record(), update.depth_kind, &request));
+    let engine = Engine::new(format, request.settings(format.record(), update.depth_kind));
     let mut pictures = Vec::new();
     engine.run(update, frames, |frame| {
         if frame.number > 0 {

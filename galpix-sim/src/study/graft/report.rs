@@ -1,4 +1,4 @@
-//! What a comparison found, for programs and for people.
+//! What a comparison found, as it is written to JSON.
 
 use serde::Serialize;
 
@@ -87,68 +87,3 @@ pub struct GraftedReport {
     /// Galpixels of others that were replaced.
     pub replaced: u32,
 }
-
-/// The report as a table.
-#[must_use]
-pub fn table(report: &GraftReport) -> String {
-    let mut lines = vec![
-        format!(
-            "{}: {} objects of {:?} cells in a map of {}, {} frames",
-            report.scene,
-            report.objects.len(),
-            report.objects,
-            report.cells,
-            report.frames
-        ),
-        format!(
-            "{:<19} {:>7} {:>7} {:>4} {:>8} {:>6} {:>6} {:>6} {:>8} {:>8} {:>7} {:>9}",
-            "way",
-            "objects",
-            "backgr.",
-            "late",
-            "cells/f",
-            "dB",
-            "worst",
-            "FLIP",
-            "obj px",
-            "back px",
-            "missing",
-            "refused"
-        ),
-    ];
-    for way in &report.ways {
-        lines.push(format!(
-            "{:<19} {:>7} {:>7} {:>4} {:>8.0} {:>6.2} {:>6.2} {:>6.4} {:>8.4} {:>8.4} {:>7.0} {:>9}",
-            way.way,
-            way.objects_every,
-            way.background_every,
-            way.late,
-            way.cells_per_frame,
-            way.psnr_db,
-            way.worst_psnr_db,
-            way.flip,
-            way.objects_px,
-            way.background_px,
-            way.missing,
-            format!("{}/{}", way.refused.total, way.renderings)
-        ));
-    }
-    if let Some(pinned) = &report.pinned {
-        lines.push(format!(
-            "\n{} of {} pixels are pinned, {} frames\n{:<16} {:>12} {:>12} {:>6} {:>6}",
-            pinned.pinned, pinned.pixels, pinned.frames, "instruments", "pinned wrong", "others smear", "dB", "worst"
-        ));
-        for way in &pinned.ways {
-            lines.push(format!(
-                "{:<16} {:>12.1} {:>12.1} {:>6.2} {:>6.2}",
-                way.way, way.pinned_wrong, way.others_smeared, way.psnr_db, way.worst_psnr_db
-            ));
-        }
-    }
-    lines.join("\n")
-}
-
-/// What the columns mean.
-pub const LEGEND: &str = "objects, backgr.: frames from one rendering to the next; late: frames until it enters; cells/f: cells \
-    sent a frame; dB (of all frames together), worst, FLIP: against the truth; obj px, back px: how far shown galpixels are from their true places; \
-    missing: cells that no galpixel reached (the last three without fills); refused: renderings that the queue refused, of all";

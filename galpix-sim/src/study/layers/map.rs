@@ -1,16 +1,14 @@
 //! The disocclusion map as a picture.
 
 use galpix_core::disocclusion::Extents;
-use galpix_core::{Bits, Dynamic, Layout};
+use galpix_core::{Dynamic, Layout};
 
-use super::Plan;
 use crate::engine::EngineError;
 use crate::picture::Picture;
-use crate::source::Source;
 use crate::source::hidden::{Culling, culling};
-use crate::study::fills::crops::Crop;
-use crate::study::run::{self, ExperimentError};
-use crate::update::Update;
+use crate::study::crops::Crop;
+use crate::study::job::{ExperimentError, Job};
+use crate::update::{Sample, Update};
 
 /// Extents of so many cells and more have a full colour.
 const FULL: u32 = 16;
@@ -19,19 +17,16 @@ const FULL: u32 = 16;
 /// farther what is uncovered reaches from the cell. The wings are shown too.
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
-pub fn picture(source: &Source, plan: &Plan) -> Result<Crop, ExperimentError> {
-    let update = source.update();
-    let frames = plan.request.frames.unwrap_or(source.frames());
-    let bits = Bits::derive(run::demand(&update, frames, &plan.request))?;
+pub fn picture(job: &Job<'_>) -> Result<Crop, ExperimentError> {
     // The map does not know what brightens.
-    let format = Dynamic::new(bits, Layout::FULL).map_err(EngineError::from)?;
-    let map = culling(&update, format, frames)?;
-    Ok(Crop { name: "what may be uncovered".into(), picture: coloured(&update, &map) })
+    let format = Dynamic::new(job.bits, Layout::FULL).map_err(EngineError::from)?;
+    let map = culling(&job.update, format, job.frames)?;
+    Ok(Crop { name: "what may be uncovered".into(), picture: coloured(&job.update, &map) })
 }
 
 fn coloured(update: &Update, map: &Culling) -> Picture {
     let strength = |cells: u32| cells.saturating_sub(1).min(FULL) * 255 / FULL;
-    let pixel = |(&word, sample): (&u32, &crate::update::Sample)| {
+    let pixel = |(&word, sample): (&u32, &Sample)| {
         let [r, g, b] = sample.colour.map(u32::from);
         let grey = (2 * r + 5 * g + b) / 16;
         let extents = Extents::of(word);
@@ -49,13 +44,14 @@ fn coloured(update: &Update, map: &Culling) -> Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::scene;
+    use crate::source::{Source, scene};
+    use crate::study::job::Request;
 
     /// The ball leaves to the right and upwards: all of it may leave what is behind, and nothing is uncovered on its way.
     #[test]
     fn what_leaves_is_coloured_and_what_it_goes_to_is_not() {
         let source = Source::Scene(scene::find("ball").unwrap());
-        let shown = picture(&source, &Plan::default()).unwrap().picture;
+        let shown = picture(&Job::resolve(&source, &Request::default()).unwrap()).unwrap().picture;
         let update = source.update();
         for (cell, (pixel, sample)) in shown.pixels.iter().zip(&update.samples).enumerate() {
             let grey = pixel[0] == pixel[1] && pixel[1] == pixel[2];

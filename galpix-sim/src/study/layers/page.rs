@@ -1,14 +1,18 @@
 //! The report as a page: how to read it, and for each source parts of the pictures, the disocclusion map, plots and a table.
 
-use super::report::{Document, SourceReport, WayReport};
-use super::table::COLUMNS;
+use maud::{Markup, html};
+
+use super::Document;
+use super::columns::{columns, summaries};
+use super::report::{SourceReport, WayReport};
+use crate::output::column;
 use crate::output::html::axis::Scale;
 use crate::output::html::scatter::{self, Mark, Scatter, Shape};
-use crate::output::html::text::{Text, count, figure};
-use crate::output::html::{self, style::Ink};
-use crate::study::fills::crops;
+use crate::output::html::text::count;
+use crate::output::html::{self as page, Head, style::Ink};
+use crate::study::crops;
 
-/// The document as a self-contained page.
+/// Returns the document as a self-contained page.
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
@@ -16,14 +20,17 @@ pub fn html(document: &Document) -> String {
          on their own; what none of them has is made up as without them."
             .to_owned(),
     ];
-    let mut facts = html::facts(document.version, &document.command, &document.machine, document.seconds);
-    facts.push(("Separation".to_owned(), format!("{} of the depth range", document.separation)));
-    let sections: String = document.sources.iter().enumerate().map(|(index, source)| section(index, source)).collect();
-    let main = [READING.to_owned(), sections, foot(document)].concat();
-    html::document("galpix: what was hidden", &intro, &facts, &main, "")
+    let mut facts = document.facts();
+    facts.push(("Separation".to_owned(), format!("{} of the depth range", document.extra.separation)));
+    let main = html! {
+        (page::reading(READING))
+        @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
+        (foot(document))
+    };
+    page::document("galpix: what was hidden", &intro, &facts, &main, &Markup::default())
 }
 
-const READING: &str = "<section><h2>How to read it</h2><ul class=\"reading\">\
+const READING: &str = "\
 <li><b>Offered</b> are the samples behind the first layer that the source has, <b>kept</b> those that are handed over, <b>used</b> those that the display \
 ever showed. <b>Culled</b>: only what the disocclusion map says can be uncovered before the next update.</li>\
 <li><b>Missing</b> are the cells that no galpixel reached, a frame; <b>disoccluded</b> those of them that the first layer alone leaves open and that are \
@@ -32,21 +39,21 @@ not connected with the border. <b>PSNR</b> and <b>FLIP</b> (0 for equals) are of
 <li><b>Behind</b>: what is behind the first layer is in a layer of its own. Else what covers something is in a layer of its own, and what is behind it is with \
 the rest. <b>DDOC</b>: what a depth discontinuity occlusion camera sees around edges, in an anchored layer. <b>Unlimited</b>, each surface whole in a layer of its own, is a bound and no way to ship.</li>\
 <li><b>Time</b> is that of the whole frame with its fill on one core, in the form whose budget is chosen at run time: the median, by that of the first layer \
-alone (<b>\u{00D7} one</b>) and by a memory copy of its map in the same run (<b>\u{00D7} copy</b>).</li>\
-</ul></section>";
+alone (<b>\u{00D7} one</b>) and by a memory copy of its map in the same run (<b>\u{00D7} copy</b>).</li>";
 
-fn foot(document: &Document) -> String {
+fn foot(document: &Document) -> Markup {
     let mut notes = vec!["layers.csv and layers.json beside this page hold every figure, frame by frame.".to_owned()];
-    if !document.nothing_disoccluded.is_empty() {
-        notes.push(format!("Nothing is disoccluded in {}.", document.nothing_disoccluded.join(", ")));
+    let extra = &document.extra;
+    if !extra.nothing_disoccluded.is_empty() {
+        notes.push(format!("Nothing is disoccluded in {}.", extra.nothing_disoccluded.join(", ")));
     }
-    if !document.nothing_hidden.is_empty() {
-        notes.push(format!("Nothing is known behind the first layer of {}.", document.nothing_hidden.join(", ")));
+    if !extra.nothing_hidden.is_empty() {
+        notes.push(format!("Nothing is known behind the first layer of {}.", extra.nothing_hidden.join(", ")));
     }
-    html::notes("Beside this", &notes)
+    page::notes("Beside this", &notes)
 }
 
-fn section(index: usize, source: &SourceReport) -> String {
+fn section(index: usize, source: &SourceReport) -> Markup {
     let frames = source.cells.len().max(1) as u64;
     let tags = [
         ("display", format!("{}\u{00D7}{}", source.width, source.height)),
@@ -54,24 +61,24 @@ fn section(index: usize, source: &SourceReport) -> String {
         ("frames with a truth", source.cells.len().to_string()),
         ("disoccluded cells a frame", count(source.disoccluded() / frames)),
     ];
-    [
-        html::source_head(index, &source.source, &source.about, &tags),
-        crops::html(&source.source, &source.largest, &source.crops),
-        map(source),
-        format!("<div class=\"plots two\">{}{}</div>", plot(source, &CARRIED), plot(source, &TIME)),
-        table(source),
-        "</section>".to_owned(),
-    ]
-    .concat()
+    let body = html! {
+        (crops::html(&source.source, &source.largest, &source.crops))
+        (map(source))
+        div class="plots two" { (plot(source, &CARRIED)) (plot(source, &TIME)) }
+        (column::html("rows points", &columns(), &summaries(source)))
+    };
+    page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
 }
 
-fn map(source: &SourceReport) -> String {
-    let figure = source.map.as_ref().map(|map| map.figure(&source.source)).unwrap_or_default();
-    format!(
-        "<h3>What may be uncovered within {} frames</h3><p>Red: from the left, green: from the right, blue: from above or below; the stronger the \
-         farther. Grey: what is hidden there stays hidden.</p><div class=\"crops\">{figure}</div>",
-        source.frames
-    )
+fn map(source: &SourceReport) -> Markup {
+    html! {
+        h3 { "What may be uncovered within " (source.frames) " frames" }
+        p {
+            "Red: from the left, green: from the right, blue: from above or below; the stronger the farther. Grey: what is \
+             hidden there stays hidden."
+        }
+        div.crops { @if let Some(map) = &source.map { (map.figure(&source.source)) } }
+    }
 }
 
 /// What a plot shows missing cells over.
@@ -107,7 +114,7 @@ fn ink(way: &WayReport) -> Ink {
     }
 }
 
-fn plot(source: &SourceReport, shown: &Shown) -> String {
+fn plot(source: &SourceReport, shown: &Shown) -> Markup {
     let mark = |way: &WayReport| {
         Some(Mark {
             at: ((shown.figure)(way)?, way.missing as f64 / way.frames.len().max(1) as f64),
@@ -125,19 +132,5 @@ fn plot(source: &SourceReport, shown: &Shown) -> String {
         courses: Vec::new(),
         marks: source.ways.iter().filter_map(mark).collect(),
     });
-    let drawing = drawing.unwrap_or_else(|| "<p class=\"nothing\">There is nothing to draw.</p>".to_owned());
-    format!("<figure><h3>{}</h3>{drawing}<figcaption>{}</figcaption></figure>", shown.title, Text(shown.remark))
-}
-
-fn table(source: &SourceReport) -> String {
-    let row = |way: &WayReport| {
-        let cells: String =
-            COLUMNS.iter().map(|(_, digits, of)| format!("<td>{}</td>", figure(of(way), *digits))).collect();
-        format!("<tr><td class=\"word\">{}</td>{cells}</tr>", Text(&way.name))
-    };
-    let rows: String = source.ways.iter().map(row).collect();
-    let heads: String = COLUMNS.iter().map(|(name, ..)| format!("<th>{}</th>", Text(name))).collect();
-    format!(
-        "<div class=\"wide\"><table class=\"rows points\"><thead><tr><th>way</th>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
-    )
+    page::plotted(shown.title, drawing, shown.remark)
 }

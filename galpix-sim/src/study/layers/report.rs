@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use crate::metric::stats;
 use crate::source::hidden::{HiddenReport, Way};
-use crate::study::error::timing::Time;
-use crate::study::fills::crops::{Crop, Largest};
+use crate::study::crops::{Crop, Largest};
+use crate::study::timing::Time;
 
 /// The cells of a frame that the first layer alone leaves open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -92,10 +93,7 @@ impl WayReport {
     /// The sums and means of its frames.
     #[must_use]
     pub fn of(way: Way, frames: Vec<WayFrame>) -> Self {
-        let mean = |of: fn(&WayFrame) -> Option<f64>| {
-            let values: Vec<f64> = frames.iter().filter_map(of).collect();
-            (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-        };
+        let mean = |of: fn(&WayFrame) -> Option<f64>| stats::mean(frames.iter().filter_map(of));
         Self {
             name: way.name(),
             hidden: None,
@@ -124,25 +122,4 @@ impl SourceReport {
     pub fn disoccluded(&self) -> u64 {
         self.cells.iter().map(|frame| frame.disoccluded).sum()
     }
-}
-
-/// Everything that was measured.
-#[derive(Clone, Debug, Serialize)]
-pub struct Document {
-    /// Of galpix.
-    pub version: &'static str,
-    /// The call, as it can be repeated.
-    pub command: String,
-    /// Where it ran.
-    pub machine: String,
-    /// How long it took.
-    pub seconds: f64,
-    /// How far a separated second layer lies behind the first at least, as a part of the depth range.
-    pub separation: f64,
-    /// The sources that were compared.
-    pub sources: Vec<SourceReport>,
-    /// The sources in which nothing is disoccluded.
-    pub nothing_disoccluded: Vec<String>,
-    /// The sources that know nothing behind their first layer.
-    pub nothing_hidden: Vec<String>,
 }

@@ -1,13 +1,11 @@
 //! The time of a frame in each way, in the form that the simulator runs: a budget chosen at run time.
 
-use galpix_core::{Bits, Dynamic, Format, Galpixmap, Grid};
+use galpix_core::{Galpixmap, Grid};
 
-use super::Plan;
 use crate::engine::{Beside, Engine, EngineError, grid, margin};
-use crate::source::Source;
 use crate::source::hidden::{Carried, Layer, Way};
-use crate::study::error::timing::{Contender, Effort, Maker, Time, race};
-use crate::study::run::{self, ExperimentError};
+use crate::study::job::{ExperimentError, Job};
+use crate::study::timing::{Contender, Effort, Maker, Time, race};
 use crate::update::Update;
 
 /// Frames that are timed in a round.
@@ -52,36 +50,20 @@ impl Contender for Layered<'_> {
     }
 }
 
-/// The times of a source, one a way.
+/// Returns the times of a job, one a way.
 ///
-/// *Errors:* a budget that cannot exist or does not fit.
-pub fn of(source: &Source, plan: &Plan, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
-    let update = &source.update();
-    let frames = plan.request.frames.unwrap_or(source.frames());
-    let bits = Bits::derive(run::demand(update, frames, &plan.request))?;
-    let format = Dynamic::new(bits, run::layout_for(update))?;
-    let settings = run::settings(format.record(), update.depth_kind, &plan.request);
+/// *Errors:* a map that does not fit, a source that has not what a way hands over.
+pub fn of(job: &Job<'_>, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
+    let update = job.update.as_ref();
     let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
-    let bytes = 4 * Galpixmap::words(&grid(update, &mut starts).map_err(EngineError::from)?, format);
-    let carried: Vec<Carried> =
-        ways.iter().map(|&way| run::carried(source, update, way, format, frames)).collect::<Result<_, _>>()?;
-    let makers: Vec<Maker<'_>> = carried
-        .iter()
-        .map(|carried| {
-            let inpaint = plan.request.fill.inpaint();
-            let maker: Maker<'_> = Box::new(move || {
-                let engine = Engine::new(format, settings).inpainting(inpaint);
-                Some(Box::new(Layered { engine, carried, bytes }))
-            });
-            maker
-        })
-        .collect();
+    let bytes = 4 * Galpixmap::words(&grid(update, &mut starts).map_err(EngineError::from)?, job.format);
+    let carried: Vec<Carried> = ways.iter().map(|&way| job.with_way(way).carried()).collect::<Result<_, _>>()?;
+    let make =
+        |carried| -> Maker<'_> { Box::new(move || Some(Box::new(Layered { engine: job.engine(), carried, bytes }))) };
+    let makers: Vec<Maker<'_>> = carried.iter().map(make).collect();
     let rounds = if update.samples.len() > LARGE { 1 } else { ROUNDS };
-    let times = race(update, Effort { rounds, frames: frames.min(FRAMES) }, &makers, || {});
+    let times = race(update, Effort { rounds, frames: job.frames.min(FRAMES) }, &makers, || {});
     drop(makers);
-    Ok(times
-        .into_iter()
-        .zip(&carried)
-        .map(|(time, carried)| (time, carried.culling.as_ref().map(|culling| culling.time.as_secs_f64() * 1e6)))
-        .collect())
+    let map_us = |carried: &Carried| carried.culling.as_ref().map(|culling| culling.time.as_secs_f64() * 1e6);
+    Ok(times.into_iter().zip(&carried).map(|(time, carried)| (time, map_us(carried))).collect())
 }

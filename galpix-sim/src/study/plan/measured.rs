@@ -10,7 +10,8 @@ use crate::engine::Engine;
 use crate::metric;
 use crate::picture::Picture;
 use crate::source::Source;
-use crate::study::run::{self, Request};
+use crate::study::job::Request;
+use crate::study::run;
 use crate::update::Update;
 
 /// Rounds of timing: in each, every build runs once.
@@ -53,7 +54,7 @@ impl Subject<'_> {
     /// The settings of a build with this stored form.
     pub fn settings(&self, build: &Build, record: &Record) -> Settings {
         let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..*self.request };
-        run::settings(record, self.update.depth_kind, &request)
+        request.settings(record, self.update.depth_kind)
     }
 
     fn engine(&self, build: &Build) -> Result<Engine, PlanError> {

@@ -21,7 +21,7 @@ use serde::Serialize;
 use crate::certificate::Unreachable;
 use crate::engine::EngineError;
 use crate::source::Source;
-use crate::study::run::{self, Request};
+use crate::study::job::Request;
 use extremes::Extremes;
 pub use measured::Measured;
 pub use motion::{Axis, Motion};
@@ -125,7 +125,7 @@ pub fn plan(source: &Source, request: &Request, max_error: f64, tighter: f64) ->
     let update = source.update();
     let frames = request.frames.unwrap_or(source.frames()).max(2);
     let extremes = Extremes::of(&update, frames);
-    let demand = run::demand(&update, frames, request);
+    let demand = request.demand(&update, frames);
     let subject = measured::Subject { source, update: &update, request, frames };
     let mut full = full(&subject, demand)?;
     let mut plan = one(&subject, &extremes, demand, max_error)?;

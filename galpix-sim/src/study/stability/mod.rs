@@ -18,6 +18,7 @@ mod setting;
 mod summary;
 #[cfg(test)]
 mod tests;
+mod text;
 pub mod verdict;
 
 use galpix_core::{BudgetError, Demand, FillMode, Rounding};
@@ -29,8 +30,9 @@ pub use page::html;
 pub use setting::{Law, Ranges, Setting, SettingError};
 pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
 
+use super::run::BudgetReport;
+use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
 use crate::engine::EngineError;
-use crate::study::run::BudgetReport;
 use mover::{Mover, Strip};
 use verdict::{Verdict, judge};
 
@@ -71,6 +73,66 @@ pub struct Request {
 impl Default for Request {
     fn default() -> Self {
         Self { demand: Demand { extent: 1024, recog: 8, prop: 16 }, rounding: None, cases: Vec::new() }
+    }
+}
+
+/// The suite, and how long it took.
+pub type Document = super::Document<NoExtra, Report>;
+
+impl Study for Request {
+    /// There is only the suite.
+    type Source = ();
+    type Job<'s> = ();
+    type Report = Report;
+    type Extra = NoExtra;
+
+    const PATH: Told = Told::Always;
+
+    fn name<'a>(&self, (): &'a ()) -> &'a str {
+        "stability"
+    }
+
+    fn resolve<'s>(&self, (): &'s ()) -> Result<(), StudyError> {
+        self.check().map_err(StudyError::unusable)
+    }
+
+    fn pieces(&self, (): &()) -> u64 {
+        self.cases().count() as u64
+    }
+
+    fn study(&self, (): &(), stage: &Stage<'_>) -> Result<Found<Report>, StudyError> {
+        let report = run(self, |case| (stage.tell)(Work::DoneWith(case)));
+        report.map(Found::Report).map_err(StudyError::unusable)
+    }
+
+    fn text(&self, report: &Report) -> String {
+        text::text(report)
+    }
+
+    fn extra(&self, _silent: &Silent) -> NoExtra {
+        NoExtra {}
+    }
+
+    /// Returns the report of the suite, without anything around it.
+    fn json(&self, document: &Document) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(&document.sources.first())
+    }
+
+    fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
+        let seconds = document.seconds.unwrap_or(0.0);
+        let page = document.sources.first().map(|report| html(report, seconds));
+        Ok(page.map(|page| ("stability.html".to_owned(), page.into_bytes())).into_iter().collect())
+    }
+
+    fn verdict(&self, document: &Document) -> Result<(), StudyError> {
+        match document.sources.first() {
+            Some(report) if !report.stable => Err(StudyError::Failed(format!(
+                "{} of {} cases are unstable: see the findings above",
+                report.count(Verdict::Unstable),
+                report.cases.len()
+            ))),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -3,7 +3,8 @@
 mod plots;
 
 use std::fmt::Display;
-use std::time::Duration;
+
+use maud::PreEscaped;
 
 use super::summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, Shares};
 use super::verdict::{Uncovered, Verdict};
@@ -12,7 +13,7 @@ use crate::output::html::text::{Text, anchor, count};
 
 /// The report as one HTML document that needs nothing but itself.
 #[must_use]
-pub fn html(report: &Report, time: Duration) -> String {
+pub fn html(report: &Report, seconds: f64) -> String {
     let budget = &report.budget;
     let roundings = report.cases.first().map(|case| case.roundings.iter().map(|one| one.rounding).collect::<Vec<_>>());
     let facts = [
@@ -20,7 +21,7 @@ pub fn html(report: &Report, time: Duration) -> String {
         ("Budget", format!("D = {} px, tau_recog = {}, tau_prop = {}", budget.extent, budget.recog, budget.prop)),
         ("Rounding", roundings.unwrap_or_default().join(", ")),
         ("Cases", report.cases.len().to_string()),
-        ("Time", format!("{:.1} s", time.as_secs_f64())),
+        ("Time", format!("{seconds:.1} s")),
     ]
     .map(|(name, value)| (name.to_owned(), value));
     let intro = [
@@ -32,7 +33,7 @@ pub fn html(report: &Report, time: Duration) -> String {
     ];
     let sections: String = report.cases.iter().enumerate().map(|(index, case)| section(index, case)).collect();
     let main = [overview(report), READING.to_owned(), sections].concat();
-    document("galpix: stiff and extreme", &intro, &facts, &main, "")
+    document("galpix: stiff and extreme", &intro, &facts, &PreEscaped(main), &PreEscaped(String::new()))
 }
 
 fn summary(report: &Report) -> String {

@@ -1,14 +1,14 @@
 //! The cells that are judged: those of the display that no galpixel of the update reached, by the warp alone, whatever is put
 //! into them. Those connected with the border are apart: what enters the picture was never seen beside anything.
 
+use galpix_core::FillMode;
+
+use super::job::{ExperimentError, Job};
+use super::run;
 use crate::engine::fill::in_fovea;
 use crate::metric::area::{self, Window};
 use crate::picture::Picture;
-use crate::source::Source;
-use crate::study::run::{self, ExperimentError, Request};
 use crate::update::Truth;
-
-use super::case::NOTHING;
 
 /// A frame whose truth is known.
 pub struct Holes {
@@ -53,13 +53,12 @@ impl Holes {
     }
 }
 
-/// The frames of a source with a truth, as the warp alone leaves them.
+/// Returns the frames of a job with a truth, as the warp of the first layer alone leaves them.
 ///
-/// *Errors:* a budget that cannot exist or that does not fit.
-pub fn of(source: &Source, request: &Request, fovea: Option<u32>) -> Result<Vec<Holes>, ExperimentError> {
+/// *Errors:* a map that does not fit.
+pub fn of(job: &Job<'_>, fovea: Option<u32>) -> Result<Vec<Holes>, ExperimentError> {
     let mut frames = Vec::new();
-    let request = Request { fill: NOTHING.fill, perceptual: false, ..*request };
-    run::run(source, &request, |shown| {
+    run::job(&job.with_fill(FillMode::None.into()).without_perception(), |shown| {
         if let (Some(truth), true) = (shown.truth, shown.frame > 0) {
             frames.push(Holes::new(shown.frame, truth, shown.picture, shown.reached, fovea));
         }

@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
+use maud::{Markup, html};
 use serde::Serialize;
 
 use super::holes::Holes;
 use crate::metric::area::Window;
 use crate::output::film;
-use crate::output::html::{self, text::count};
+use crate::output::html::{picture, text::count};
 use crate::picture::Picture;
 
 /// Cells around the area that are shown with it.
@@ -66,23 +67,21 @@ pub fn of_truth(holes: &[Holes], at: &Largest) -> Vec<Crop> {
     frame.flat_map(|holes| [crop("truth", &holes.truth, at), crop("warped", &holes.warped, at)]).collect()
 }
 
-/// The parts as figures of a page, under a heading.
+/// Returns the parts as figures of a page, under a heading.
 #[must_use]
-pub fn html(source: &str, at: &Largest, crops: &[Crop]) -> String {
-    let figures: String = crops.iter().map(|crop| crop.figure(source)).collect();
-    format!(
-        "<h3>The largest disocclusion: {} cells of frame {}</h3><div class=\"crops\">{figures}</div>",
-        count(at.cells as u64),
-        at.frame
-    )
+pub fn html(source: &str, at: &Largest, crops: &[Crop]) -> Markup {
+    html! {
+        h3 { "The largest disocclusion: " (count(at.cells as u64)) " cells of frame " (at.frame) }
+        div.crops { @for crop in crops { (crop.figure(source)) } }
+    }
 }
 
 impl Crop {
-    /// As a figure of a page.
+    /// Returns the part as a figure of a page.
     #[must_use]
-    pub fn figure(&self, source: &str) -> String {
+    pub fn figure(&self, source: &str) -> Markup {
         let magnified = self.magnified((SHOWN / self.picture.width.max(1)).clamp(1, 8));
-        html::picture(&magnified, &format!("{source}: {}, magnified", self.name), &self.name)
+        picture(&magnified, &format!("{source}: {}, magnified", self.name), &self.name)
     }
 
     /// The part with each pixel as a square of `times` pixels.

@@ -9,12 +9,12 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use galpix_core::{Controller, FillMode, Format, Galpixmap, Grid, Margin, Scratch, Settings, stages};
+use galpix_core::{Controller, Format, Galpixmap, Grid, Margin, Scratch, Settings, stages};
 use serde::Serialize;
 
-use super::float::Floats;
 use crate::engine::fill::{Inpaint, Inpainter};
 use crate::engine::{load, margin};
+use crate::metric::stats::median;
 use crate::update::Update;
 
 /// What can be timed.
@@ -122,30 +122,6 @@ impl<F: Format> Contender for Engine<F> {
     }
 }
 
-/// The floats as a contender.
-pub struct InFloats {
-    /// The maps.
-    pub maps: Box<dyn Floats>,
-    /// What is put into holes.
-    pub rung: FillMode,
-    /// Pixels of a map.
-    pub cells: usize,
-}
-
-impl Contender for InFloats {
-    fn bytes(&self) -> usize {
-        self.maps.bytes_per_pixel() * self.cells
-    }
-
-    fn restart(&mut self, update: &Update) {
-        self.maps.load(update);
-    }
-
-    fn step(&mut self) {
-        self.maps.step(self.rung, &mut []);
-    }
-}
-
 /// Makes a contender when its turn comes; `None` where there cannot be one.
 pub type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender + 'm>> + 'm>;
 
@@ -218,16 +194,5 @@ impl Copy {
             timed += if counted > 0 { start.elapsed() } else { Duration::ZERO };
         }
         timed.as_secs_f64() / f64::from(times)
-    }
-}
-
-/// The median; `None` of nothing.
-#[must_use]
-pub fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() % 2 {
-        1 => values.get(middle).copied(),
-        _ => Some(0.5 * (values.get(middle.checked_sub(1)?)? + values.get(middle)?)),
     }
 }
