@@ -3,7 +3,7 @@
 //! `cargo run --release --example contact_sheet [FILE]`, by default `contact-sheet.png` in the current folder.
 
 use galpix_sim::picture::Picture;
-use galpix_sim::scene::{all, render};
+use galpix_sim::source::scene::{all, render};
 use std::path::PathBuf;
 use std::time::Instant;
 

@@ -57,6 +57,6 @@ impl Picture {
 
     /// Writes the picture as an 8-bit PNG, whole or not at all.
     pub fn write_png(&self, path: &Path) -> std::io::Result<()> {
-        crate::report::write_atomically(path, &self.png()?)
+        crate::output::html::write_atomically(path, &self.png()?)
     }
 }

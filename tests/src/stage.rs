@@ -3,7 +3,7 @@
 use fixed::types::I32F32;
 use galpix_core::{FillMode, Format, Galpixel, Galpixmap, Margin, Rounding, Settings};
 use galpix_sim::engine::galpixel;
-use galpix_sim::scene::{self, Scene};
+use galpix_sim::source::scene::{self, Scene};
 use galpix_sim::update::Update;
 
 use crate::lent::{Shape, with_maps, words};

@@ -8,7 +8,7 @@ use galpix_core::record::MAX_WORDS;
 use galpix_core::{Format, Galpixel, Galpixmap, Rounding, graft};
 use heapless::Vec;
 
-use crate::scene::{Body, Number, Scene};
+use crate::source::scene::{Body, Number, Scene};
 
 /// Frames from the begin of one update to the next. A power of two.
 pub const EVERY: u32 = 16;

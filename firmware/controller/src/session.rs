@@ -20,7 +20,7 @@ use crate::log;
 use crate::maps::Maps;
 use crate::overlay::Overlay;
 use crate::renderer::Renderer;
-use crate::scene;
+use crate::source::scene;
 
 /// The most bytes from the line that one frame takes: 921 600 baud at 60 frames a second. What comes faster waits.
 pub const BYTES_PER_FRAME: u32 = 1536;

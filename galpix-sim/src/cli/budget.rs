@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::choices::{RoundingChoice, pixels};
 use super::{CliError, print, print_json};
 use crate::certificate::{Certificate, Method, smallest};
-use crate::experiment::BudgetReport;
+use crate::study::run::BudgetReport;
 
 /// A layout by its name, with what it carries in words.
 #[derive(Clone, Copy, Debug)]

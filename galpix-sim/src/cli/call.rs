@@ -1,16 +1,29 @@
 //! What a report says of how it was made, and where its files go.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::{CliError, demo, print, print_json};
-use crate::capture::ImportOptions;
-use crate::experiment::Source;
-use crate::report;
+use super::{CliError, say};
+use crate::output::save::draft;
+use crate::source::capture::ImportOptions;
+use crate::source::{Source, scene};
 
 /// The sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
     let open = |name: &String| Source::open(name, options).map_err(CliError::unusable);
-    if names.is_empty() { Ok(demo::sources()) } else { names.iter().map(open).collect() }
+    if names.is_empty() { Ok(all()) } else { names.iter().map(open).collect() }
+}
+
+/// Returns the built-in scenes, and the project's own capture if its folder is there.
+pub fn all() -> Vec<Source> {
+    let mut sources: Vec<Source> = scene::all().iter().map(|&scene| Source::Scene(scene)).collect();
+    let capture = Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles/capture.toml");
+    if capture.exists() {
+        match Source::open(&capture.to_string_lossy(), &ImportOptions::default()) {
+            Ok(source) => sources.push(source),
+            Err(error) => say(&format!("galpix: {error}")),
+        }
+    }
+    sources
 }
 
 /// The call, as it can be repeated.
@@ -38,56 +51,9 @@ pub fn machine() -> String {
     format!("{name}, {threads} threads")
 }
 
-/// Where a study's files go: the folder that was asked for, else `galpix-out/NAME`, and nowhere where only JSON is printed. It can be
-/// written to.
-pub fn folder(out: Option<&PathBuf>, json: bool, name: &str) -> Result<Option<PathBuf>, CliError> {
-    let out = match (out, json) {
-        (Some(out), _) => out.clone(),
-        (None, true) => return Ok(None),
-        (None, false) => Path::new("galpix-out").join(name),
-    };
-    writable(&out)?;
-    Ok(Some(out))
-}
-
-/// Writes files into a folder, in this order: where the last one is, the others are there too.
-pub fn write(out: &Path, files: &[(&str, String)]) -> Result<(), CliError> {
-    files.iter().try_for_each(|(name, text)| {
-        let path = out.join(name);
-        report::write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))
-    })
-}
-
-/// Writes the files of a study, of which the last one is its page, into the folder that it has; then prints the document if that was asked
-/// for, else the path of the page.
-pub fn publish(
-    out: Option<&Path>,
-    json: bool,
-    document: &impl serde::Serialize,
-    files: impl FnOnce() -> Result<Vec<(&'static str, String)>, CliError>,
-) -> Result<(), CliError> {
-    let mut page = None;
-    if let Some(out) = out {
-        let files = files()?;
-        write(out, &files)?;
-        page = files.last().map(|(name, _)| out.join(name));
-    }
-    match page {
-        _ if json => print_json(document),
-        Some(page) => print(&page.display().to_string()),
-        None => Ok(()),
-    }
-}
-
-/// A document as the text of a file.
-pub fn json(document: &impl serde::Serialize) -> Result<String, CliError> {
-    Ok(serde_json::to_string_pretty(document).map_err(|error| CliError::Failed(error.to_string()))? + "\n")
-}
-
 /// Makes the folder and tries to write into it, before anything is measured.
 pub fn writable(out: &Path) -> Result<(), CliError> {
     let unwritable = |error: std::io::Error| CliError::unwritable(out, &error);
     std::fs::create_dir_all(out).map_err(unwritable)?;
-    let probe = out.join(format!(".galpix.{}.probe", std::process::id()));
-    std::fs::write(&probe, []).and_then(|()| std::fs::remove_file(&probe)).map_err(unwritable)
+    draft(out).and_then(tempfile::NamedTempFile::close).map_err(unwritable)
 }

@@ -3,10 +3,10 @@
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
-use crate::capture::{AccelerationPolicy, ImportOptions};
-use crate::experiment::Request;
-use crate::fill::{Fill, Gamma, Inpaint, Kind};
-use crate::hidden::Way;
+use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
+use crate::source::capture::{AccelerationPolicy, ImportOptions};
+use crate::source::hidden::Way;
+use crate::study::job::Request;
 
 /// How positions are rounded.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]

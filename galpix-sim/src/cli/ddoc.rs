@@ -1,16 +1,13 @@
 //! `galpix ddoc`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use galpix_core::ddoc::MOST_RADIUS;
 
-use super::call::{self, command, machine};
-use super::{CliError, file_name, print, print_json};
-use crate::ddoc::pictures::Pictures;
-use crate::ddoc::report::{self, Document};
-use crate::ddoc::{self, Request, SIZES, page};
-use crate::report::write_atomically;
+use super::CliError;
+use super::drive::{Publication, drive};
+use crate::study::ddoc::{self, Request, SIZES};
 
 /// Arguments of `galpix ddoc`.
 #[derive(Debug, Args)]
@@ -62,44 +59,6 @@ impl Ddoc {
         };
         let worlds =
             names.iter().map(|name| ddoc::open(name)).collect::<Result<Vec<_>, _>>().map_err(CliError::unusable)?;
-        let out = call::folder(self.out.as_ref(), self.json, "ddoc")?;
-        if !self.json {
-            print(&report::head())?;
-        }
-        let sources = Vec::with_capacity(worlds.len());
-        let mut document =
-            Document { version: env!("CARGO_PKG_VERSION"), command: command(), machine: machine(), sources };
-        let mut all = Vec::with_capacity(worlds.len());
-        for world in &worlds {
-            let (source, pictures) = ddoc::study(world, &request).map_err(CliError::unusable)?;
-            if !self.json {
-                print(&report::row(&source))?;
-            }
-            document.sources.push(source);
-            all.push(pictures);
-        }
-        if let Some(out) = &out {
-            write(out, &document, &all)?;
-        }
-        match out {
-            _ if self.json => print_json(&document),
-            Some(out) => {
-                print(report::LEGEND)?;
-                print(&out.join("ddoc.html").display().to_string())
-            }
-            None => Ok(()),
-        }
+        drive(&request, &worlds, &Publication::usual(self.out.as_ref(), self.json, "ddoc"))
     }
-}
-
-/// Writes the pictures, the figures, and last the page.
-fn write(out: &Path, document: &Document, all: &[Pictures]) -> Result<(), CliError> {
-    for (source, pictures) in document.sources.iter().zip(all) {
-        for (name, _, picture) in &pictures.all {
-            let png = picture.png().map_err(|error| CliError::Failed(error.to_string()))?;
-            let path = out.join(format!("{}-{name}.png", file_name(&source.source)));
-            write_atomically(&path, &png).map_err(|error| CliError::unwritable(&path, &error))?;
-        }
-    }
-    call::write(out, &[("ddoc.json", call::json(document)?), ("ddoc.html", page::html(document, all))])
 }

@@ -1,20 +1,17 @@
 //! `galpix error`.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
-use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
-use super::{CliError, print};
-use crate::experiment::Request;
-use crate::fill::Fill;
-use crate::progress;
-use crate::tradeoff::design::{Extent, Kept};
-use crate::tradeoff::report::{Document, SourceReport};
-use crate::tradeoff::{self, Plan, csv, page, table};
+use super::drive::{Publication, drive};
+use super::{CliError, call};
+use crate::engine::fill::Fill;
+use crate::study::error::Plan;
+use crate::study::error::design::{Extent, Kept};
+use crate::study::job::Request;
 
 /// Which lanes a galpixel carries beside class and colour.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -99,42 +96,11 @@ pub struct Error {
 impl Error {
     /// Measures the sources and writes the report.
     pub fn run(&self) -> Result<(), CliError> {
-        let started = Instant::now();
-        let plan = self.plan()?;
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        sources.iter().try_for_each(|source| tradeoff::check(source, &plan).map_err(CliError::unusable))?;
-        let out = call::folder(self.out.as_ref(), self.json, "error")?;
-        let mut reports: Vec<SourceReport> = Vec::new();
-        for source in &sources {
-            let bar = progress::bar(0, &super::printable(source.name()));
-            let report = tradeoff::study(source, &plan, |work| match work {
-                tradeoff::Work::Ahead(work) => bar.inc_length(work),
-                tradeoff::Work::Done => bar.inc(1),
-            })
-            .map_err(CliError::unusable)?;
-            bar.finish_and_clear();
-            if !self.json {
-                print(&super::printable_lines(&table::text(&report)))?;
-            }
-            reports.push(report);
-        }
-        let document = Document {
-            version: env!("CARGO_PKG_VERSION"),
-            command: command(),
-            machine: machine(),
-            seconds: started.elapsed().as_secs_f64(),
-            sources: reports,
-        };
-        call::publish(out.as_deref(), self.json, &document, || {
-            Ok(vec![
-                ("error.csv", csv::csv(&document)),
-                ("error.json", call::json(&document)?),
-                ("error.html", page::html(&document)),
-            ])
-        })
+        drive(&self.plan(), &sources, &Publication::usual(self.out.as_ref(), self.json, "error"))
     }
 
-    fn plan(&self) -> Result<Plan, CliError> {
+    fn plan(&self) -> Plan {
         let mut rungs: Vec<Fill> = self.rungs.iter().map(|&rung| self.inpainting.of(rung.into())).collect();
         let mut roundings: Vec<Rounding> = self.roundings.iter().map(|&rounding| rounding.into()).collect();
         let mut kept: Vec<Kept> = self.lanes.iter().map(|&lanes| lanes.into()).collect();
@@ -151,7 +117,7 @@ impl Error {
             (_, true) => Extent::Full,
             _ => Extent::Sensible,
         };
-        Ok(Plan {
+        Plan {
             request: Request {
                 frames: self.frames,
                 extent: self.extent,
@@ -164,6 +130,6 @@ impl Error {
             roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
             rungs: all(rungs.is_empty()).map_or(rungs, |()| FillMode::ALL.map(Fill::from).to_vec()),
             extent,
-        })
+        }
     }
 }

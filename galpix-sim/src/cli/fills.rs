@@ -1,20 +1,16 @@
 //! `galpix fills`.
 
 use std::path::PathBuf;
-use std::time::Instant;
 
 use clap::Args;
 
-use super::call::{self, command, machine};
 use super::choices::{AccelerationChoice, Inpainting};
-use super::{CliError, check, print, printable, printable_lines, say};
-use crate::experiment::Request;
-use crate::fill::Gamma;
-use crate::fills::case::{self, Case};
-use crate::fills::export::{self, Export};
-use crate::fills::report::Document;
-use crate::fills::{self, FillsError, Plan, csv, page, table};
-use crate::progress;
+use super::drive::{Publication, drive};
+use super::{CliError, call, printable};
+use crate::engine::fill::Gamma;
+use crate::study::fills::Plan;
+use crate::study::fills::case::{self, Case};
+use crate::study::job::Request;
 
 /// Arguments of `galpix fills`.
 #[derive(Debug, Args)]
@@ -45,54 +41,9 @@ pub struct Fills {
 impl Fills {
     /// Compares the fills and writes the report.
     pub fn run(&self) -> Result<(), CliError> {
-        let started = Instant::now();
         let plan = self.plan()?;
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        sources.iter().try_for_each(|source| check(source, &plan.request))?;
-        let out = call::folder(self.out.as_ref(), self.json, "fills")?;
-        let export = out.as_deref().map(Export::new);
-        let mut document = Document {
-            version: env!("CARGO_PKG_VERSION"),
-            command: command(),
-            machine: machine(),
-            seconds: 0.0,
-            fovea: plan.fovea,
-            sources: Vec::new(),
-            nothing_disoccluded: Vec::new(),
-        };
-        for source in &sources {
-            let name = printable(source.name());
-            let bar = progress::bar(plan.cases.len() as u64, &name);
-            let report = fills::study(source, &plan, export.as_ref(), || bar.inc(1)).map_err(|error| match error {
-                FillsError::Experiment(_) | FillsError::Export(_) => CliError::unusable(error),
-            })?;
-            bar.finish_and_clear();
-            match report {
-                Some(report) => {
-                    if !self.json {
-                        print(&printable_lines(&table::text(&report)))?;
-                    }
-                    document.sources.push(report);
-                }
-                None => {
-                    say(&format!("{name}: nothing is disoccluded"));
-                    document.nothing_disoccluded.push(source.name().to_owned());
-                }
-            }
-        }
-        document.seconds = started.elapsed().as_secs_f64();
-        if !self.json {
-            print(table::LEGEND)?;
-        }
-        call::publish(out.as_deref(), self.json, &document, || {
-            let index = export::index(&document).map_err(|error| CliError::Failed(error.to_string()))?;
-            Ok(vec![
-                ("fills.csv", csv::csv(&document)),
-                ("fills.json", call::json(&document)?),
-                ("index.json", index),
-                ("fills.html", page::html(&document)),
-            ])
-        })
+        drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "fills"))
     }
 
     fn plan(&self) -> Result<Plan, CliError> {

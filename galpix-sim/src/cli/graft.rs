@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::call;
-use super::{CliError, print, print_json, printable};
-use crate::grafts::{self, GraftsError, Plan, report};
-use crate::{progress, scene};
+use super::drive::{Publication, drive};
+use super::{CliError, printable};
+use crate::source::scene;
+use crate::study::graft::Plan;
 
 /// Arguments of `galpix graft`.
 #[derive(Debug, Args)]
@@ -39,24 +39,7 @@ impl Graft {
             let name = printable(&self.scene);
             return Err(CliError::unusable(format!("there is no scene `{name}`: `galpix scenes` lists them")));
         };
-        if let Some(out) = &self.out {
-            call::writable(out)?;
-        }
         let plan = Plan { frames: self.frames, global_every: self.global, objects_every: self.objects };
-        let bar = progress::bar(grafts::WAYS, scene.name());
-        let compared = grafts::study(scene, &plan, || bar.inc(1));
-        bar.finish_and_clear();
-        let (found, pictures) = compared.map_err(|error| match error {
-            GraftsError::Engine(_) => CliError::Failed(error.to_string()),
-            _ => CliError::unusable(error),
-        })?;
-        if let Some(out) = &self.out {
-            for (name, picture) in &pictures.pictures {
-                let path = out.join(format!("{name}.png"));
-                picture.write_png(&path).map_err(|error| CliError::unwritable(&path, &error))?;
-            }
-            call::write(out, &[("graft.json", call::json(&found)?)])?;
-        }
-        if self.json { print_json(&found) } else { print(&format!("{}\n{}", report::table(&found), report::LEGEND)) }
+        drive(&plan, &[scene], &Publication { out: self.out.clone(), json: self.json })
     }
 }

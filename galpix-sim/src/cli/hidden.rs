@@ -2,7 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::hidden::{Kind, RADIUS, SEPARATION, Way};
+use crate::source::hidden::{Kind, RADIUS, SEPARATION, Way};
 
 /// What is known behind the first layer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use clap::Args;
 
 use super::choices::{AccelerationChoice, pixels};
-use super::{CliError, check, print, print_json, printable};
-use crate::experiment::{Request, Source};
-use crate::plan::{self, Axis, Measured, Plan, PlanError, Planning};
+use super::{CliError, print, print_json, printable};
+use crate::source::Source;
+use crate::study::job::{Job, Request};
+use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
 
 /// Arguments of `galpix plan`.
 #[derive(Debug, Args)]
@@ -53,7 +54,7 @@ impl PlanArguments {
             perceptual: false,
             ..Request::default()
         };
-        check(&source, &request)?;
+        Job::resolve(&source, &request).map_err(CliError::unusable)?;
         let tighter = self.tighter.unwrap_or(self.max_error / 4.0);
         let planning = plan::plan(&source, &request, self.max_error, tighter).map_err(|error| match error {
             PlanError::Engine(_) => CliError::Failed(error.to_string()),

@@ -6,9 +6,12 @@ use clap::Args;
 
 use super::choices::Extrapolation;
 use super::hidden::HiddenArguments;
-use super::{CliError, check, print, print_json, printable, say};
-use crate::experiment::{self, Request, RunReport, Source};
-use crate::progress;
+use super::{CliError, print, print_json, printable, progress, say};
+use crate::output::column::{Column, Table, Value};
+use crate::output::save::file_name;
+use crate::source::Source;
+use crate::study::job::{Job, Request};
+use crate::study::run::{self, FrameReport, RunReport, TruthReport};
 
 /// Arguments of `galpix run`.
 #[derive(Debug, Default, Args)]
@@ -32,14 +35,13 @@ impl Run {
     pub fn run(&self) -> Result<(), CliError> {
         let request = Request { way: self.hidden.way(), ..self.extrapolation.request() };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
-        check(&source, &request)?;
-        experiment::check_way(&source, request.way).map_err(CliError::unusable)?;
+        let job = Job::resolve(&source, &request).map_err(CliError::unusable)?;
+        run::check_way(&source, request.way).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
-        let frames = request.frames.unwrap_or(source.frames());
-        let bar = progress::bar(u64::from(frames), &printable(source.name()));
+        let bar = progress::bar(u64::from(job.frames), &printable(source.name()));
         let mut written = Ok(());
-        let report = experiment::run(&source, &request, |shown| {
+        let report = run::job(&job, |shown| {
             let path = out.join(format!("{:04}.png", shown.frame));
             if written.is_ok()
                 && let Err(error) = shown.picture.write_png(&path)
@@ -56,15 +58,26 @@ impl Run {
     }
 }
 
-/// A name that is safe as a file's: a capture's name comes from outside.
-pub fn file_name(name: &str) -> String {
-    let safe: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' { c } else { '-' }).take(64).collect();
-    if safe.is_empty() { "capture".to_owned() } else { safe }
-}
-
-fn decibels(value: Option<f64>) -> String {
-    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"))
+fn columns() -> [Column<FrameReport>; 13] {
+    fn truth<V: Into<Value>>(frame: &FrameReport, of: fn(TruthReport) -> V) -> Value {
+        frame.truth.map(of).into()
+    }
+    let column = Column::<FrameReport>::new;
+    [
+        column(|frame| frame.frame.into()).terminal("frame", 0),
+        column(|frame| truth(frame, |truth| truth.psnr_db)).terminal("psnr dB", 2),
+        column(|frame| truth(frame, |truth| truth.psnr_hold_db)).terminal("hold", 2),
+        column(|frame| truth(frame, |truth| truth.psnr_known_db)).terminal("known", 2),
+        column(|frame| truth(frame, |truth| truth.ssim)).terminal("ssim", 4),
+        column(|frame| truth(frame, |truth| truth.flip)).terminal("flip", 4),
+        column(|frame| truth(frame, |truth| truth.missing)).terminal("missing", 0),
+        column(|frame| truth(frame, |truth| truth.missing_at_border)).terminal("border", 0),
+        column(|frame| frame.holes.into()).terminal("holes", 0),
+        column(|frame| frame.bullets.into()).terminal("bullets", 0),
+        column(|frame| frame.lost.into()).terminal("lost", 0),
+        column(|frame| frame.collided.into()).terminal("collided", 0),
+        column(|frame| frame.position.map(|position| position.worst_px).into()).terminal("worst px", 4),
+    ]
 }
 
 fn table(report: &RunReport) -> String {
@@ -88,34 +101,15 @@ fn table(report: &RunReport) -> String {
             "{} galpixels, {} cells start empty, {} fields clamped; {:.1} ns a galpixel",
             report.loaded.galpixels, report.loaded.empty, report.loaded.saturated, report.ns_per_galpixel
         ),
-        "frame  psnr dB     hold    known    ssim    flip  missing  border    holes  bullets     lost  collided  worst px"
-            .to_owned(),
     ];
     if let Some(hidden) = &report.hidden {
         let said = format!(
             "{}: {} layers beside the base; {} samples behind the first layer, {} handed over, {} shown",
             hidden.way, hidden.layers, hidden.offered, hidden.kept, hidden.used
         );
-        lines.insert(2, said);
+        lines.push(said);
     }
-    for frame in &report.frames {
-        let truth = frame.truth.as_ref();
-        lines.push(format!(
-            "{:>5} {:>8} {:>8} {:>8} {:>7} {:>7} {:>8} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9}",
-            frame.frame,
-            decibels(truth.and_then(|truth| truth.psnr_db)),
-            decibels(truth.and_then(|truth| truth.psnr_hold_db)),
-            decibels(truth.and_then(|truth| truth.psnr_known_db)),
-            truth.and_then(|truth| truth.ssim).map_or_else(|| "-".to_owned(), |ssim| format!("{ssim:.4}")),
-            truth.and_then(|truth| truth.flip).map_or_else(|| "-".to_owned(), |flip| format!("{flip:.4}")),
-            truth.map_or_else(|| "-".to_owned(), |truth| truth.missing.to_string()),
-            truth.map_or_else(|| "-".to_owned(), |truth| truth.missing_at_border.to_string()),
-            frame.holes,
-            frame.bullets,
-            frame.lost,
-            frame.collided,
-            frame.position.map_or_else(|| "-".to_owned(), |position| format!("{:.4}", position.worst_px)),
-        ));
-    }
+    let columns = columns();
+    lines.extend(Table::new(&columns, &report.frames).lines(&report.frames));
     lines.join("\n")
 }

@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{CliError, print, print_json};
-use crate::scene;
+use crate::source::scene;
 
 /// Arguments of `galpix scenes`.
 #[derive(Debug, Default, Args)]

@@ -4,10 +4,10 @@ use clap::{Args, ValueEnum};
 use galpix_link::panel::{Description, Lcd, Oled, Panel};
 
 use super::{CliError, print, print_json, printable, say};
-use crate::capture::ImportOptions;
-use crate::experiment::Source;
-use crate::progress;
+use crate::cli::progress;
 use crate::send::{self, Address, Report, Request};
+use crate::source::Source;
+use crate::source::capture::ImportOptions;
 
 /// A display that galpix knows.
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::{CliError, print, say};
-use crate::report::write_atomically;
+use crate::output::html::write_atomically;
 use crate::vectors;
 
 /// Arguments of `galpix vectors`.

@@ -3,7 +3,7 @@
 use galpix_core::stages::FILLED;
 use galpix_core::{Class, Dynamic};
 
-use super::hidden::Beside;
+use super::layer::Beside;
 use super::show::Show;
 use crate::update::{Known, Update};
 

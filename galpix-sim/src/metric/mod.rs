@@ -11,9 +11,11 @@
 //! | [`flip`] | contrast-filtered opponent colours | 0 ..= 1, **0** |
 //! | [`ssimulacra2()`] | XYB | below 100, 100; whole pictures only |
 
+pub mod area;
 mod local;
 mod ssim;
 mod ssimulacra;
+pub mod stats;
 
 pub use local::{change, variance};
 

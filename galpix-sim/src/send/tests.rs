@@ -1,7 +1,7 @@
 use galpix_link::panel::{Lcd, Oled, Panel};
 
 use super::*;
-use crate::scene;
+use crate::source::scene;
 
 #[test]
 fn addresses_are_told_apart() {

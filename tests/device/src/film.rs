@@ -4,7 +4,7 @@ use std::path::Path;
 
 use galpix_controller::scene;
 use galpix_link::frame::Frame;
-use galpix_sim::film::{apng_within, side_by_side};
+use galpix_sim::output::film::{apng_within, side_by_side};
 use galpix_sim::picture::Picture;
 
 use crate::boards::{Board, Filling};

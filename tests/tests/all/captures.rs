@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use galpix_core::FillMode;
-use galpix_sim::capture::ImportOptions;
-use galpix_sim::experiment::{self, Request, RunReport, Source};
+use galpix_sim::source::capture::ImportOptions;
+use galpix_sim::source::Source;
+use galpix_sim::study::run::{self, Request, RunReport};
 
 /// PSNR in dB of a forward warp in floating point with velocity and acceleration, to the nearest pixel and without fill,
 /// over the pixels that it reached; by capture and frame. From the captures' own description.

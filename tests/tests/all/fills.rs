@@ -1,11 +1,12 @@
 //! The fills side by side: figures that can be what they say, and foreground that stays out of what it uncovered.
 
-use galpix_sim::capture::ImportOptions;
-use galpix_sim::experiment::{Request, Source};
-use galpix_sim::fill::{Fill, Gamma};
-use galpix_sim::fills::case::{self, CLASSIC};
-use galpix_sim::fills::report::{FillReport, SourceReport};
-use galpix_sim::fills::{Plan, study};
+use galpix_sim::source::capture::ImportOptions;
+use galpix_sim::source::Source;
+use galpix_sim::study::run::Request;
+use galpix_sim::engine::fill::{Fill, Gamma};
+use galpix_sim::study::fills::case::{self, CLASSIC};
+use galpix_sim::study::fills::report::{FillReport, SourceReport};
+use galpix_sim::study::fills::{Plan, study};
 
 fn compared(name: &str, frames: u32, fills: &[&str], gamma: Option<Gamma>, fovea: Option<u32>) -> SourceReport {
     let mut cases = case::all(gamma, fovea);
@@ -65,7 +66,7 @@ fn a_fovea_is_neither_inpainted_nor_judged() {
     let shown = |fill: Fill| {
         let mut pictures = Vec::new();
         let request = Request { fill, frames: Some(2), perceptual: false, ..Request::default() };
-        galpix_sim::experiment::run(&source, &request, |frame| pictures.push(frame.picture.clone())).unwrap();
+        galpix_sim::study::run::run(&source, &request, |frame| pictures.push(frame.picture.clone())).unwrap();
         pictures
     };
     let push_pull = |fovea| case::all(None, fovea).into_iter().find(|case| case.name == "push-pull").unwrap().fill;

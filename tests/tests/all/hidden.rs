@@ -1,14 +1,15 @@
 //! What was hidden: samples are counted right, culling keeps what is needed, and no picture gets worse for it.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
-use galpix_sim::capture::ImportOptions;
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::engine::{Beside, Engine, EngineError, MAX_BESIDE, NO_ORIGIN};
-use galpix_sim::experiment::{self, ExperimentError, Request, RunReport, Source};
-use galpix_sim::hidden::{Arrangement, Kind, SEPARATION, Way};
-use galpix_sim::layers::report::SourceReport;
-use galpix_sim::layers::{Plan, Study, study, ways};
+use galpix_sim::source::Source;
+use galpix_sim::study::run::{self, ExperimentError, Request, RunReport};
+use galpix_sim::source::hidden::{Arrangement, Kind, SEPARATION, Way};
+use galpix_sim::study::layers::report::SourceReport;
+use galpix_sim::study::layers::{Plan, Study, study, ways};
 use galpix_sim::picture::Picture;
-use galpix_sim::scene;
+use galpix_sim::source::scene;
 use galpix_sim::update::{Known, Sample, Update};
 
 const SECOND: Way = Way { kind: Kind::Second { separation: SEPARATION }, ..Way::ONE };

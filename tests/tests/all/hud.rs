@@ -2,9 +2,10 @@
 
 use galpix_core::{Bits, Format, Layout, Settings};
 use galpix_sim::engine::Engine;
-use galpix_sim::experiment::{self, Request, Source};
-use galpix_sim::fill::Fill;
-use galpix_sim::scene;
+use galpix_sim::source::Source;
+use galpix_sim::study::run::{self, Request};
+use galpix_sim::engine::fill::Fill;
+use galpix_sim::source::scene;
 use galpix_sim::update::Update;
 use galpix_tests::lent::words;
 use galpix_tests::profiles::dynamic;

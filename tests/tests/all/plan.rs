@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use galpix_core::Static;
-use galpix_sim::capture::ImportOptions;
-use galpix_sim::experiment::{Request, Source};
-use galpix_sim::plan::{self, Planning};
-use galpix_sim::scene;
+use galpix_sim::source::capture::ImportOptions;
+use galpix_sim::source::Source;
+use galpix_sim::study::run::Request;
+use galpix_sim::study::plan::{self, Planning};
+use galpix_sim::source::scene;
 
 fn planned(source: &Source, max_error: f64) -> Planning {
     let request = Request { perceptual: false, ..Request::default() };

@@ -2,10 +2,10 @@
 
 use fixed::types::I32F32;
 use galpix_core::{Class, Demand, Dynamic, FillMode, Layout, Rounding, Settings};
-use galpix_sim::stability::causes::follow;
-use galpix_sim::stability::mover::Strip;
-use galpix_sim::stability::verdict::Verdict;
-use galpix_sim::stability::{self, ALL, Px, Request, Setting};
+use galpix_sim::study::stability::causes::follow;
+use galpix_sim::study::stability::mover::Strip;
+use galpix_sim::study::stability::verdict::Verdict;
+use galpix_sim::study::stability::{self, ALL, Px, Request, Setting};
 use galpix_tests::lent::{Shape, with_controller};
 
 const PAPER: Demand = Demand { extent: 1024, recog: 8, prop: 16 };

@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use galpix_core::{Demand, Dynamic, FillMode, Format, Rounding, Settings};
-use galpix_sim::capture::ImportOptions;
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::certificate::Certificate;
 use galpix_sim::engine::Engine;
-use galpix_sim::experiment::Source;
-use galpix_sim::scene;
-use galpix_sim::tradeoff::design::{Configuration, Kept, Step};
-use galpix_sim::tradeoff::ranges::Ranges;
-use galpix_sim::tradeoff::reference::Reference;
-use galpix_sim::tradeoff::{float, measure};
+use galpix_sim::source::Source;
+use galpix_sim::source::scene;
+use galpix_sim::study::error::design::{Configuration, Kept, Step};
+use galpix_sim::study::error::ranges::Ranges;
+use galpix_sim::study::error::reference::Reference;
+use galpix_sim::study::error::{float, measure};
 
 /// What floating point may add to an error of a pixel.
 const FLOAT: f64 = 1e-6;

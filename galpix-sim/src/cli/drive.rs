@@ -1,0 +1,116 @@
+//! Runs a study: its jobs are resolved before anything is made, each source's figures are printed as they are there, and the
+//! files are written at the end, the page last.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use super::call::{command, machine, writable};
+use super::{CliError, print, printable, printable_lines, progress, say};
+use crate::output::save::write_atomically;
+use crate::study::{Document, File, Found, Silent, Stage, Study, StudyError, Told, Work};
+
+impl From<StudyError> for CliError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Unusable(reason) => Self::Unusable(reason),
+            StudyError::Failed(reason) => Self::Failed(reason),
+        }
+    }
+}
+
+/// What becomes of what a study finds.
+pub struct Publication {
+    /// The folder that files go to; no files are written without it.
+    pub out: Option<PathBuf>,
+    /// Whether JSON is printed in place of tables.
+    pub json: bool,
+}
+
+impl Publication {
+    /// Puts files into the folder that was asked for, else into `galpix-out/NAME`, and nowhere where only JSON is printed.
+    pub fn usual(out: Option<&PathBuf>, json: bool, name: &str) -> Self {
+        let usual = (!json).then(|| Path::new("galpix-out").join(name));
+        Self { out: out.cloned().or(usual), json }
+    }
+}
+
+/// Studies the sources, prints, and writes.
+pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Result<(), CliError> {
+    let started = Instant::now();
+    let jobs = sources.iter().map(|source| study.resolve(source)).collect::<Result<Vec<_>, _>>()?;
+    if let Some(out) = &to.out {
+        writable(out)?;
+    }
+    if let (Some(head), false) = (study.head(), to.json) {
+        print(&head)?;
+    }
+    let mut reports = Vec::with_capacity(sources.len());
+    let mut silent: Silent = Vec::new();
+    for (source, job) in sources.iter().zip(&jobs) {
+        let name = printable(study.name(source));
+        match one(study, job, &name, to)? {
+            Found::Report(report) => {
+                if !to.json {
+                    print(&printable_lines(&study.text(&report)))?;
+                }
+                reports.push(report);
+            }
+            Found::Nothing(reason) => {
+                say(&format!("{name}: {}", reason.text()));
+                silent.push((reason, study.name(source).to_owned()));
+            }
+        }
+    }
+    let document = Document {
+        version: env!("CARGO_PKG_VERSION"),
+        command: command(),
+        machine: machine(),
+        seconds: S::SECONDS.then(|| started.elapsed().as_secs_f64()),
+        extra: study.extra(&silent),
+        sources: reports,
+    };
+    if let (Some(legend), false) = (S::LEGEND, to.json) {
+        print(legend)?;
+    }
+    publish(study, &document, to)?;
+    Ok(study.verdict(&document)?)
+}
+
+/// Studies a source while a bar shows how it gets on.
+fn one<S: Study>(study: &S, job: &S::Job<'_>, name: &str, to: &Publication) -> Result<Found<S::Report>, CliError> {
+    let bar = progress::bar(study.pieces(job), name);
+    let tell = |work: Work<'_>| match work {
+        Work::Ahead(more) => bar.inc_length(more),
+        Work::Done => bar.inc(1),
+        Work::DoneWith(name) => {
+            bar.set_message(name.to_owned());
+            bar.inc(1);
+        }
+    };
+    let found = study.study(job, &Stage { out: to.out.as_deref(), tell: &tell })?;
+    bar.finish_and_clear();
+    Ok(found)
+}
+
+/// Writes the files; then prints the document if JSON was asked for, else the path of the page.
+fn publish<S: Study>(study: &S, document: &Document<S::Extra, S::Report>, to: &Publication) -> Result<(), CliError> {
+    let mut page = None;
+    if let Some(out) = &to.out {
+        let files = study.files(document)?;
+        files.iter().try_for_each(|file| write(out, file))?;
+        page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != Told::Nowhere);
+    }
+    if to.json {
+        print(&study.json(document).map_err(|error| CliError::Failed(error.to_string()))?)?;
+        if let (Some(page), Told::Always) = (page, S::PATH) {
+            say(&format!("the report is in {}", page.display()));
+        }
+        return Ok(());
+    }
+    page.map_or(Ok(()), |page| print(&page.display().to_string()))
+}
+
+fn write(out: &Path, (name, bytes): &File) -> Result<(), CliError> {
+    let path = out.join(name);
+    write_atomically(&path, bytes).map_err(|error| CliError::unwritable(&path, &error))
+}

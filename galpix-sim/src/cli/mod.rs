@@ -1,0 +1,172 @@
+//! The command line. Results go to standard output, progress and messages to standard error.
+
+mod budget;
+mod call;
+mod choices;
+mod ddoc;
+mod demo;
+mod drive;
+mod error;
+mod fills;
+mod graft;
+mod hidden;
+mod layers;
+mod plan;
+mod progress;
+mod run;
+mod scenes;
+mod send;
+mod stability;
+mod vectors;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::error::ErrorKind;
+use clap::{Parser, Subcommand};
+/// Why a command did not do what it was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    /// Arguments or input that cannot be used: exit code 2.
+    #[error("{0}")]
+    Unusable(String),
+    /// Anything else: exit code 1.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl CliError {
+    /// Input that cannot be used.
+    fn unusable(reason: impl ToString) -> Self {
+        Self::Unusable(reason.to_string())
+    }
+
+    /// A file or folder that cannot be written.
+    fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Self {
+        Self::Unusable(format!("{} cannot be written ({error}): choose another folder with --out", path.display()))
+    }
+}
+
+/// Pictures that keep moving between updates: a simulator of galpixmaps in fixed point.
+#[derive(Debug, Parser)]
+#[command(
+    name = "galpix",
+    version,
+    max_term_width = 100,
+    after_help = "Exit codes: 0 done, 2 unusable arguments or input, 1 anything else."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Runs the built-in scenes and writes a report (this is what galpix does without a command)
+    Demo(demo::Demo),
+    /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
+    Run(run::Run),
+    /// Error against run time over budgets, lanes, roundings and rungs: tables, plots, the Pareto front
+    Error(error::Error),
+    /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
+    Fills(fills::Fills),
+    /// The ways to know what was hidden side by side: samples, missing pixels, error, cost
+    Layers(layers::LayersArguments),
+    /// Objects updated at rates of their own against updates of the whole view, at the same number of cells a second
+    Graft(graft::Graft),
+    /// Depth images that look around edges: what a frame from beside them lacks, against plain depth images
+    Ddoc(ddoc::Ddoc),
+    /// Prints every width of a bit budget, its bytes, and its certificate
+    Budget(budget::Budget),
+    /// Says what a source does not need for a position error: lanes, bits, rounding, rung
+    Plan(plan::PlanArguments),
+    /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
+    Stability(stability::Stability),
+    /// Streams a scene or a capture as galpixels to a display controller
+    Send(send::Send),
+    /// Lists the built-in scenes and what each of them stresses
+    Scenes(scenes::Scenes),
+    /// Writes golden vectors for other implementations and for test benches in logic
+    Vectors(vectors::Vectors),
+}
+
+/// Parses the arguments, does what they say, and tells how it ended.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => return unparsed(&error),
+    };
+    let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
+        Command::Demo(demo) => demo.run(),
+        Command::Run(run) => run.run(),
+        Command::Error(error) => error.run(),
+        Command::Fills(fills) => fills.run(),
+        Command::Layers(layers) => layers.run(),
+        Command::Graft(graft) => graft.run(),
+        Command::Ddoc(ddoc) => ddoc.run(),
+        Command::Budget(budget) => budget.run(),
+        Command::Plan(plan) => plan.run(),
+        Command::Stability(stability) => stability.run(),
+        Command::Send(send) => send.run(),
+        Command::Scenes(scenes) => scenes.run(),
+        Command::Vectors(vectors) => vectors.run(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            say(&format!("galpix: {error}"));
+            ExitCode::from(if matches!(error, CliError::Unusable(_)) { 2 } else { 1 })
+        }
+    }
+}
+
+/// Prints the help or the version that was asked for, or why the arguments cannot be used, in one sentence.
+fn unparsed(error: &clap::Error) -> ExitCode {
+    if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
+        // A reader that has gone away is no failure.
+        let _ = error.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = error.to_string();
+    let reason: Vec<&str> = text
+        .lines()
+        .map(str::trim)
+        .take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more information"))
+        .filter(|line| !line.is_empty())
+        .collect();
+    let reason = reason.join(" ");
+    say(&format!("galpix: {}; `--help` tells what can be given", printable(reason.trim_start_matches("error: "))));
+    ExitCode::from(2)
+}
+
+/// Writes a line on standard error. A reader that has gone away is no failure.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// A text from outside without the characters that command a terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+/// The same for a text of several lines.
+fn printable_lines(text: &str) -> String {
+    text.lines().map(printable).collect::<Vec<_>>().join("\n")
+}
+
+/// Prints a line, or several, on standard output. A reader that has gone away is no failure.
+fn print(text: &str) -> Result<(), CliError> {
+    match writeln!(std::io::stdout(), "{text}") {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(CliError::Failed(format!("standard output cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Prints one JSON document on standard output.
+fn print_json(value: &impl serde::Serialize) -> Result<(), CliError> {
+    let text = serde_json::to_string_pretty(value).map_err(|error| CliError::Failed(error.to_string()))?;
+    print(&text)
+}

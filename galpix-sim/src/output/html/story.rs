@@ -1,0 +1,123 @@
+//! One scene: film, plots, certificate, notes, table.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use maud::{Markup, PreEscaped, html};
+
+use super::figures::figures;
+use super::overview::{Standing, Summary};
+use super::page::list;
+use super::text::{Text, anchor, figure};
+use super::{CertificateLine, Row, Story};
+use crate::output::column::{self, Column};
+
+/// Returns the story as a section; `index` counts from 0.
+pub fn section(index: usize, story: &Story) -> Markup {
+    let size = format!("{}\u{00D7}{}", story.width, story.height);
+    let budget = [&size, &story.budget_line, &story.rounding, &story.fill];
+    let tags = ["display", "budget", "rounding", "fill"].into_iter().zip(budget);
+    html! {
+        section.story id=(anchor(index, &story.name)) {
+            h2 { (Text(&story.name)) }
+            p.about { (Text(&story.about)) }
+            ul.tags {
+                @for (name, value) in tags.filter(|(_, value)| !value.is_empty()) { li { b { (name) } " " (Text(value)) } }
+            }
+            @if !story.film_apng.is_empty() { (film(story)) }
+            @if let Some(certificate) = &story.certificate { (promise(certificate, &Summary::of(story))) }
+            (PreEscaped(figures(story)))
+            @if !story.notes.is_empty() { (list(&story.notes)) }
+            (table(story))
+            p.up { a href="#overview" { "to the overview" } }
+        }
+    }
+}
+
+fn film(story: &Story) -> Markup {
+    let size = png_size(&story.film_apng);
+    html! {
+        figure.film {
+            div.wide {
+                img width=[size.map(|size| size[0])] height=[size.map(|size| size[1])]
+                    alt={ (Text(&story.name)) ": truth, sample-and-hold, galpix and their difference, animated" }
+                    src={ "data:image/png;base64," (STANDARD.encode(&story.film_apng)) };
+            }
+            figcaption {
+                b { "truth" } " what a renderer would show in each frame \u{00B7} "
+                b { "sample-and-hold" } " the update, frozen \u{00B7} "
+                b { "galpix" } " the update, kept moving \u{00B7} "
+                b { "difference" } " galpix against the truth, enlarged; black is identical"
+            }
+        }
+    }
+}
+
+/// Width and height as a PNG's header says.
+fn png_size(bytes: &[u8]) -> Option<[u32; 2]> {
+    let side = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
+    (bytes.get(12..16)? == b"IHDR").then_some([side(16)?, side(20)?])
+}
+
+/// The certificate in words, and what was measured beside it.
+fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
+    let px = |value: f64| format!("{}\u{00A0}px", figure(Some(value), 4));
+    let (class, verdict) = match certificate.holds {
+        true => ("good", format!("Keeps the paper\u{2019}s one-pixel promise: {}.", px(certificate.total_px))),
+        false => ("poor", format!("Does not keep the paper\u{2019}s one-pixel promise: {}.", px(certificate.total_px))),
+    };
+    let measured = match (summary.worst_px, summary.standing) {
+        (Some(worst), Some(Standing::Inside)) => {
+            format!(
+                "The worst error measured in the frames that it covers is {}; each frame is inside its bound.",
+                px(worst)
+            )
+        }
+        (Some(worst), Some(Standing::BeyondFrom(frame))) => format!(
+            "The worst error measured in the frames that it covers is {}, past the bound of its frame first in frame {frame}: the \
+             certificate covers the arithmetic, not motion that velocity and acceleration cannot describe.",
+            px(worst)
+        ),
+        _ => "The true motion is not known here, so nothing was measured beside it.".to_owned(),
+    };
+    html! {
+        p class={ "promise " (class) } {
+            strong { (verdict) }
+            " " (px(certificate.quantisation_px)) " from quantisation and " (px(certificate.drift_px))
+            " from rounding drift, in the worst case over all states. " (measured)
+            " The snap to a cell, at most half a pixel, stands apart."
+        }
+    }
+}
+
+fn columns() -> [Column<Row>; 15] {
+    [
+        Column::new(|row: &Row| row.frame.into()).page("frame", 0),
+        Column::new(|row: &Row| row.psnr_db.into()).page("galpix dB", 2),
+        Column::new(|row: &Row| row.psnr_hold_db.into()).page("hold dB", 2),
+        Column::new(|row: &Row| row.psnr_known_db.into()).page("reached dB", 2),
+        Column::new(|row: &Row| row.position_error_px.into()).page("worst px", 3),
+        Column::new(|row: &Row| row.mean_position_error_px.into()).page("mean px", 3),
+        Column::new(|row: &Row| row.truth_error_px.into()).page("truth px", 3),
+        Column::new(|row: &Row| row.holes.into()).page("holes", 0).grouped(),
+        Column::new(|row: &Row| row.filled.into()).page("filled", 0).grouped(),
+        Column::new(|row: &Row| row.bullets.into()).page("bullets", 0).grouped(),
+        Column::new(|row: &Row| row.unobscured.into()).page("unobscured", 0).grouped(),
+        Column::new(|row: &Row| row.lost.into()).page("lost", 0).grouped(),
+        Column::new(|row: &Row| row.collided.into()).page("collided", 0).grouped(),
+        Column::new(|row: &Row| row.saturated.into()).page("saturated", 0).grouped(),
+        Column::new(|row: &Row| row.ns_per_galpixel.into()).page("ns a galpixel", 2),
+    ]
+}
+
+fn table(story: &Story) -> Markup {
+    html! {
+        @if story.rows.is_empty() {
+            p.nothing { "No frame was run." }
+        } @else {
+            details {
+                summary { "All figures, frame by frame" }
+                (column::html("rows", &columns(), &story.rows))
+            }
+        }
+    }
+}

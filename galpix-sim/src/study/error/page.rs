@@ -1,0 +1,148 @@
+//! The report as a page: how to read it, a section for each source, and what it was made with.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::Document;
+use super::columns::{Row, columns};
+use super::figures;
+use super::rates::Rate;
+use super::report::{Point, Scheme, SourceReport};
+use crate::output::column;
+use crate::output::html::text::figure;
+use crate::output::html::{self as page, Head};
+
+/// Returns the document as a self-contained page.
+#[must_use]
+pub fn html(document: &Document) -> String {
+    let intro = [
+        "Each point is one way to run the engine: a bit budget, the lanes that a galpixel carries, a rounding, and a rung of \
+         the ladder that fills holes. To the right: what a frame costs. Upwards: how wrong it gets. What lies at the lower \
+         left is better in both; what nothing beats is on the front and has a letter."
+            .to_owned(),
+    ];
+    let main = html! {
+        (page::reading(READING))
+        @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
+        (page::notes("Left out of all this", &LEFT_OUT.map(str::to_owned)))
+    };
+    page::document("galpix: error against run time", &intro, &document.facts(), &main, &Markup::default())
+}
+
+const READING: &str = "\
+<li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median, beside a memory copy of \
+the same bytes in the same run (<b>\u{00D7} copy</b>). It was measured with a stand-in of the same lanes and the nearest number \
+of words, on the same pictures; single bits hardly matter to it. <b>Run-time form</b> is the simulator\u{2019}s own, with the \
+budget chosen at run time.</li>\
+<li><b>Position error</b> is that of the worst galpixel against the exact second-order path of the update, before the snap to a \
+cell. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick above a point</span> is what it can at most be: the certificate, \
+and what the lanes that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
+<li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>Missing</b> cells are those that no galpixel of the \
+update reached, before filling. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
+
+const LEFT_OUT: [&str; 4] = [
+    "Depth has the same steps as x and y; budgets that shave depth alone were not tried.",
+    "The memory copy is one of aligned memory by the C library; where a map fits into a cache, so does the copy, and the ratio \
+     is that of two things in the cache.",
+    "Floats are not tried with the rungs that tell surfaces apart, and galpix is not tried with several threads.",
+    "error.csv and error.json beside this page hold every figure.",
+];
+
+fn section(index: usize, source: &SourceReport) -> Markup {
+    let demand = source.demand;
+    let tags = [
+        ("display", format!("{}\u{00D7}{}", source.width, source.height)),
+        ("frames", source.frames.to_string()),
+        (
+            "derived budget",
+            format!("D = {} px, tau_recog = {}, tau_prop = {}", demand.extent, demand.recog, demand.prop),
+        ),
+        ("points", source.points.len().to_string()),
+    ];
+    let body = html! {
+        (gain(source))
+        div class="plots two" { (figures::all(source)) }
+        (fronts(source))
+        details {
+            summary { "All " (source.points.len()) " points" }
+            (table(source, &source.points, |_, point| point.id.to_string()))
+        }
+        (page::list(&source.left_out))
+    };
+    page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
+}
+
+/// What galpixels buy, in a sentence or two.
+fn gain(source: &SourceReport) -> Markup {
+    let better = |rate: &&Rate| rate.every > 1 && rate.hold_needs_every < rate.every;
+    let mut needed: Vec<u32> = source.rates.iter().filter(better).map(|rate| rate.hold_needs_every).collect();
+    needed.dedup();
+    let one_of = |every: u32| match every {
+        1 => "every frame".to_owned(),
+        every => every.to_string(),
+    };
+    let bought = needed.iter().map(|&needed| {
+        let rates = source.rates.iter().filter(better).filter(|rate| rate.hold_needs_every == needed);
+        let every: Vec<String> = rates.map(|rate| rate.every.to_string()).collect();
+        format!("an update in <strong>1 frame of {}</strong> as good as one in {}", every.join(" or "), one_of(needed))
+    });
+    let sentences: Vec<String> = bought.collect();
+    // The oldest frame that sample-and-hold is as bad as at an earlier age already.
+    let aged = || {
+        source.ages.iter().rev().find_map(|age| {
+            let as_bad = source.ages.iter().find(|held| held.flip_hold >= age.flip && held.frame < age.frame)?;
+            Some(format!(
+                "<strong>{} frames</strong> after the update galpix has FLIP {}; sample-and-hold has {} after {} already",
+                age.frame,
+                figure(Some(age.flip), 3),
+                figure(Some(as_bad.flip_hold), 3),
+                as_bad.frame
+            ))
+        })
+    };
+    html! {
+        @match (sentences.is_empty(), source.rates.is_empty()) {
+            (false, _) => p class="promise good" {
+                "By mean FLIP over all frames, galpix makes " (PreEscaped(sentences.join("; "))) ", with sample-and-hold."
+            },
+            (true, true) => { @if let Some(text) = aged() { p class="promise good" { (PreEscaped(text)) "." } } },
+            (true, false) => p class="promise poor" {
+                "At no rate does galpix save an update here: sample-and-hold is as good."
+            },
+        }
+    }
+}
+
+/// Returns a table of points, each named by its place and itself.
+fn table<'p>(
+    source: &SourceReport,
+    points: impl IntoIterator<Item = &'p Point>,
+    name: impl Fn(usize, &Point) -> String,
+) -> Markup {
+    let points = points.into_iter().enumerate();
+    let rows: Vec<Row<'_>> = points.map(|(place, point)| Row::new(source, point, name(place, point))).collect();
+    column::html("rows points", &columns(), &rows)
+}
+
+/// Returns the fronts, named as in the plots, with floats beneath.
+fn fronts(source: &SourceReport) -> Markup {
+    let fronts = [
+        ("Time against the worst position error", &source.fronts.position),
+        ("Time against FLIP", &source.fronts.picture),
+        ("Bytes against the worst position error", &source.fronts.bytes),
+    ];
+    let on = |front: &[usize]| -> Vec<&Point> {
+        front.iter().filter_map(|id| source.points.iter().find(|point| point.id == *id)).collect()
+    };
+    let floats: Vec<&Point> = source.points.iter().filter(|point| point.scheme == Scheme::F32).collect();
+    html! {
+        h3.over { "The fronts, by the letters of the plots" }
+        @for (title, front) in fronts.into_iter().filter(|(_, front)| !front.is_empty()) {
+            h3 { (title) }
+            (table(source, on(front), |place, _| figures::letter(place)))
+        }
+        @if !floats.is_empty() {
+            h3 { "The same scheme in 32-bit floats" }
+            (table(source, floats, |_, _| "f32".to_owned()))
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! From configurations to points: errors on all processors, then times on one.
+
+use std::collections::HashMap;
+
+use galpix_core::{Bits, BudgetError, Dynamic, FillMode, Format, Record, Rounding, Settings};
+use rayon::prelude::*;
+
+use super::design::{Configuration, Kept, Step};
+use super::report::{FrameError, Point, Scheme, Summary};
+use super::{Run, float, measure, stand_in};
+use crate::certificate::Certificate;
+use crate::engine::fill::Fill;
+use crate::study::Work;
+use crate::study::job::{ExperimentError, Request};
+use crate::study::timing::{Engine, Maker, Time, race};
+
+/// A configuration whose budget exists.
+struct Candidate {
+    configuration: Configuration,
+    bits: Bits,
+    format: Dynamic,
+    settings: Settings,
+}
+
+impl Candidate {
+    /// Whether another one would do the same.
+    fn is(&self, other: &Self) -> bool {
+        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept, of.configuration.rung);
+        what(self) == what(other)
+    }
+}
+
+impl Run<'_> {
+    /// How the frames of a configuration are made in maps of a stored form.
+    pub(super) fn settings(&self, configuration: &Configuration, record: &Record) -> Settings {
+        let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.job.request };
+        request.settings(record, self.job.update.depth_kind)
+    }
+
+    fn candidate(&self, configuration: Configuration) -> Result<Candidate, BudgetError> {
+        let bits = self.bits(configuration.kept, configuration.step)?;
+        let format = Dynamic::new(bits, configuration.kept.layout())?;
+        let settings = self.settings(&configuration, format.record());
+        Ok(Candidate { configuration, bits, format, settings })
+    }
+
+    /// Measures the configurations, and the floats beside them. What has no budget is left out, with a word on why.
+    pub(super) fn points(
+        &self,
+        design: &[Configuration],
+        left_out: &mut Vec<String>,
+        tell: &(dyn Fn(Work<'_>) + Sync),
+    ) -> Result<Vec<Point>, ExperimentError> {
+        let mut candidates: Vec<Candidate> = Vec::new();
+        for &configuration in design {
+            match self.candidate(configuration) {
+                // A step may lead to widths that are there already.
+                Ok(new) if candidates.iter().any(|old| old.is(&new)) => {}
+                Ok(new) => candidates.push(new),
+                Err(error) if configuration.step == Step::DERIVED => return Err(error.into()),
+                Err(error) => left_out.push(format!(
+                    "Budget {} with lanes {} does not exist: {error}.",
+                    configuration.step.name(),
+                    configuration.kept.name()
+                )),
+            }
+        }
+        let floats = Self::float_configurations(&candidates);
+        tell(Work::Ahead(candidates.len() as u64));
+        let certificates = self.certificates(&candidates);
+        let mut points: Vec<Point> = candidates
+            .par_iter()
+            .map(|candidate| {
+                let point = self.galpix(candidate, &certificates);
+                tell(Work::Done);
+                point
+            })
+            .collect::<Result<_, _>>()?;
+        points.par_extend(floats.par_iter().map(|configuration| self.floats(configuration)));
+        self.time(&candidates, &floats, &mut points, tell);
+        for (point, id) in points.iter_mut().zip(1..) {
+            point.id = id;
+        }
+        Ok(points)
+    }
+
+    /// The lanes of the candidates in floats, with the rungs that floats have.
+    fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
+        let mut floats: Vec<Configuration> = Vec::new();
+        let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
+        let none = candidates.iter().any(|candidate| candidate.configuration.rung == FillMode::None.into());
+        for Candidate { configuration, .. } in candidates {
+            for rung in [FillMode::None, FillMode::Hold].map(Fill::from) {
+                // Black holes are for study: the richest lanes show them.
+                let shown = rung == FillMode::Hold.into() || none && configuration.kept == middle;
+                let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
+                if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
+                    floats.push(float);
+                }
+            }
+        }
+        floats
+    }
+
+    /// The certificate of each kind of arithmetic among the candidates.
+    fn certificates(&self, candidates: &[Candidate]) -> HashMap<Arithmetic, Certificate> {
+        let mut kinds: Vec<(Arithmetic, &Candidate)> =
+            candidates.iter().map(|candidate| (Arithmetic::of(candidate), candidate)).collect();
+        kinds.sort_by_key(|kind| kind.0);
+        kinds.dedup_by_key(|kind| kind.0);
+        let certify = |&(kind, candidate): &(Arithmetic, &Candidate)| {
+            let record = candidate.format.record();
+            let rounding = candidate.settings.rounding;
+            (kind, Certificate::of(&record.scales[0], record.layout().acceleration, rounding, self.job.demand.prop))
+        };
+        kinds.par_iter().map(certify).collect()
+    }
+
+    fn galpix(
+        &self,
+        candidate: &Candidate,
+        certificates: &HashMap<Arithmetic, Certificate>,
+    ) -> Result<Point, ExperimentError> {
+        let Candidate { configuration, bits, format, settings } = candidate;
+        let mut measured = measure::engine(&self.reference, configuration, *bits, *settings)?;
+        let (record, layout) = (format.record(), configuration.kept.layout());
+        let certificate = certificates.get(&Arithmetic::of(candidate));
+        for frame in &mut measured.frames {
+            // What has no velocity stays where it is, exactly.
+            frame.certified_px =
+                if layout.velocity { certificate.and_then(|bound| bound.after(frame.frame)) } else { Some(0.0) };
+            frame.left_out_px = self.reference.left_out_px(layout, frame.frame);
+        }
+        let x = bits.x;
+        Ok(Point {
+            bits: Some([x.position_frac, x.velocity_int, x.velocity_frac, x.acceleration_int, x.acceleration_frac]),
+            rounding: Some(settings.rounding.name()),
+            bytes: record.bytes(),
+            used_bits: record.bits(),
+            saturated: u64::from(measured.loaded.saturated) + measured.saturated,
+            budget: configuration.step.name(),
+            stand_in: stand_in::of(configuration.kept).map(stand_in::StandIn::name),
+            ..point(Scheme::Galpix, configuration, measured.frames)
+        })
+    }
+
+    fn floats(&self, configuration: &Configuration) -> Point {
+        let mut measured = measure::floats(&self.reference, configuration);
+        for frame in &mut measured.frames {
+            frame.left_out_px = self.reference.left_out_px(configuration.kept.layout(), frame.frame);
+        }
+        let bytes = float::maps(configuration.kept, 1, 1).map_or(0, |maps| maps.bytes_per_pixel());
+        let used_bits = 8 * bytes as u32;
+        Point { bytes, used_bits, ..point(Scheme::F32, configuration, measured.frames) }
+    }
+
+    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each rung, floats.
+    fn time(
+        &self,
+        candidates: &[Candidate],
+        floats: &[Configuration],
+        points: &mut [Point],
+        tell: &(dyn Fn(Work<'_>) + Sync),
+    ) {
+        let update = &self.reference.update;
+        let mut makers: Vec<Maker<'_>> = Vec::new();
+        for candidate in candidates {
+            makers.push(Box::new(move || {
+                let inpaint = candidate.configuration.rung.inpaint();
+                Some(Box::new(Engine::new(update, candidate.format, candidate.settings, inpaint)?))
+            }));
+        }
+        for configuration in floats {
+            let cells = update.samples.len();
+            makers.push(Box::new(move || {
+                let maps = float::maps(configuration.kept, update.width, update.height)?;
+                Some(Box::new(float::InFloats { maps, rung: configuration.rung.rung(), cells }))
+            }));
+        }
+        let mut fixed: Vec<(String, Fill)> = Vec::new();
+        for candidate in candidates {
+            let Some(stand_in) = stand_in::of(candidate.configuration.kept) else { continue };
+            let kind = (stand_in.name(), candidate.configuration.rung);
+            if !fixed.contains(&kind) {
+                fixed.push(kind);
+                // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another number.
+                let settings = self.settings(&candidate.configuration, &stand_in.record);
+                let inpaint = candidate.configuration.rung.inpaint();
+                makers.push(Box::new(move || stand_in.contender(update, settings, inpaint)));
+            }
+        }
+        tell(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));
+        let times = race(update, self.effort, &makers, || tell(Work::Done));
+        let (own, fixed_times) = times.split_at(candidates.len() + floats.len());
+        for (index, (point, &time)) in points.iter_mut().zip(own).enumerate() {
+            match candidates.get(index) {
+                Some(candidate) => {
+                    point.run_time = time;
+                    let place = fixed.iter().position(|(name, rung)| {
+                        Some(name) == point.stand_in.as_ref() && *rung == candidate.configuration.rung
+                    });
+                    point.compile_time = place.and_then(|place| fixed_times[place]);
+                }
+                None => point.compile_time = time,
+            }
+        }
+    }
+}
+
+/// A point without its number, its widths and its times.
+fn point(scheme: Scheme, configuration: &Configuration, frames: Vec<FrameError>) -> Point {
+    Point {
+        id: 0,
+        scheme,
+        lanes: configuration.kept.name(),
+        budget: String::new(),
+        bits: None,
+        rounding: None,
+        rung: configuration.rung.name(),
+        bytes: 0,
+        used_bits: 0,
+        saturated: 0,
+        run_time: None::<Time>,
+        compile_time: None,
+        stand_in: None,
+        summary: Summary::of(&frames),
+        frames,
+    }
+}
+
+/// What a certificate depends on, beside `tau_prop`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Arithmetic([u32; 6], bool, &'static str);
+
+impl Arithmetic {
+    fn of(candidate: &Candidate) -> Self {
+        let record = candidate.format.record();
+        let scale = &record.scales[0];
+        Self(
+            [
+                scale.acceleration_up,
+                scale.down,
+                scale.up,
+                scale.position_frac,
+                scale.velocity_frac,
+                scale.acceleration_frac,
+            ],
+            record.layout().acceleration,
+            candidate.settings.rounding.name(),
+        )
+    }
+}

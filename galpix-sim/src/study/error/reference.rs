@@ -1,0 +1,131 @@
+//! What the frames of a source are held against: the true pictures, the true paths, and the exact second-order paths.
+
+use galpix_core::Layout;
+use rayon::prelude::*;
+
+use crate::picture::Picture;
+use crate::source::Source;
+use crate::update::{Known, Sample, Truth, Update};
+
+/// Pictures are looked at in so many frames, fewer where they are large: FLIP takes a microsecond a pixel.
+const MOST_PICTURES: usize = 4;
+/// Pixels whose FLIP is taken for one configuration.
+const PIXELS: usize = 700_000;
+/// Frames in which positions are looked at.
+const MOST_PLACES: usize = 6;
+
+/// A source, its update, and its truth.
+pub struct Reference<'s> {
+    /// Scene or capture.
+    pub source: &'s Source,
+    /// The update.
+    pub update: Update,
+    /// The update's picture: what sample-and-hold shows.
+    pub hold: Picture,
+    /// Frames to extrapolate.
+    pub frames: u32,
+    /// The true pictures that are compared with, in ascending frames.
+    pub truths: Vec<Truth>,
+    /// The frames in which a configuration is looked at, ascending; those of `truths` are among them.
+    pub looked: Vec<u32>,
+    /// For each frame from 1 on, where each sample truly is, in cells of the map; only known for scenes.
+    tracks: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+/// `count` of some things, evenly spaced, the last among them.
+fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
+    let count = count.clamp(1, all.len().max(1)).min(all.len());
+    (1..=count).map(|k| all[k * all.len() / count - 1]).collect()
+}
+
+impl<'s> Reference<'s> {
+    /// Of a source over `frames` frames.
+    #[must_use]
+    pub fn new(source: &'s Source, frames: u32) -> Self {
+        let update = source.update();
+        let hold = update.picture();
+        let pictures = (PIXELS / hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
+        let known: Vec<u32> = match source {
+            Source::Scene(_) => (1..=frames).collect(),
+            Source::Capture(capture) => {
+                capture.truths.iter().map(|truth| truth.frame).filter(|frame| (1..=frames).contains(frame)).collect()
+            }
+        };
+        let truths: Vec<Truth> = spread(&known, pictures).into_iter().filter_map(|frame| source.truth(frame)).collect();
+        let all: Vec<u32> = (1..=frames).collect();
+        let mut looked = spread(&all, MOST_PLACES);
+        looked.extend(truths.iter().map(|truth| truth.frame));
+        looked.sort_unstable();
+        looked.dedup();
+        let tracks = match source {
+            Source::Scene(scene) => Some(all.par_iter().map(|&frame| tracks(*scene, &update, frame)).collect()),
+            Source::Capture(_) => None,
+        };
+        Self { source, update, hold, frames, truths, looked, tracks }
+    }
+
+    /// Where a sample was in the update, in cells of the map.
+    #[must_use]
+    pub fn from(&self, origin: u32) -> [f64; 2] {
+        let (origin, width) = (origin as usize, self.update.width);
+        [(origin % width) as f64, (origin / width) as f64]
+    }
+
+    /// Where a sample truly is in a frame, where that is known.
+    #[must_use]
+    pub fn track(&self, origin: u32, frame: u32) -> Option<[f64; 2]> {
+        self.tracks.as_ref()?.get(frame.checked_sub(1)? as usize)?.get(origin as usize).copied()
+    }
+
+    /// The true picture of a frame.
+    #[must_use]
+    pub fn truth(&self, frame: u32) -> Option<&Truth> {
+        self.truths.iter().find(|truth| truth.frame == frame)
+    }
+
+    /// The most that lanes which are left out would have moved a sample by, up to `frame`, in pixels.
+    #[must_use]
+    pub fn left_out_px(&self, layout: Layout, frame: u32) -> f64 {
+        let known = self.update.samples.iter().filter(|sample| sample.known == Known::Motion);
+        let gone = |sample: &Sample| {
+            let [full, kept] = [way(sample, Layout::FULL, frame), way(sample, layout, frame)];
+            (full[0] - kept[0]).abs().max((full[1] - kept[1]).abs())
+        };
+        known.map(gone).fold(0.0, f64::max)
+    }
+}
+
+/// The exact way in x and y of a sample with some lanes, in pixels.
+#[must_use]
+pub fn way(sample: &Sample, layout: Layout, frame: u32) -> [f64; 2] {
+    let n = f64::from(frame);
+    [0, 1].map(|axis| {
+        let velocity = if layout.velocity { sample.velocity[axis] } else { 0.0 };
+        let acceleration = if layout.acceleration { sample.acceleration[axis] } else { 0.0 };
+        velocity * n + acceleration / 2.0 * n * n
+    })
+}
+
+fn tracks(scene: &dyn crate::source::scene::Scene, update: &Update, frame: u32) -> Vec<[f64; 2]> {
+    let (left, top) = (update.wings.left as f64, update.wings.top as f64);
+    (0..update.samples.len())
+        .map(|cell| {
+            let (x, y) = ((cell % update.width) as f64 - left, (cell / update.width) as f64 - top);
+            let [x, y, _] = scene.track(x, y, 0.0, f64::from(frame));
+            [x + left, y + top]
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_spread_is_even_and_ends_with_the_last() {
+        assert_eq!(spread(&[1, 2, 3, 4, 5, 6], 2), [3, 6]);
+        assert_eq!(spread(&[1, 2, 3], 8), [1, 2, 3]);
+        assert_eq!(spread(&[1, 2, 3, 4], 1), [4]);
+        assert!(spread::<u32>(&[], 3).is_empty());
+    }
+}

@@ -1,0 +1,224 @@
+//! Every fill side by side: how well, and at what cost, each makes up what the warp of a source leaves open.
+//!
+//! ```text
+//! holes (the warp alone: which cells are judged) ─┬─▶ figures (of each fill's pictures) ─┐
+//! case (the fills) ───────────────────────────────┼─▶ times (of each fill's frames) ─────┼─▶ report ─▶ columns, page
+//!                                                 └─▶ export (pictures for other programs) and crops
+//! ```
+//!
+//! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
+
+pub mod case;
+mod columns;
+pub mod export;
+pub mod figures;
+mod page;
+pub mod report;
+mod times;
+
+use rayon::prelude::*;
+use serde::Serialize;
+
+use super::crops;
+use super::holes::{self, Holes, count};
+use super::job::{ExperimentError, Job, Request};
+use super::{File, Found, Nothing, Silent, Stage, Study, StudyError, Work, run, silent};
+use crate::output::column;
+use crate::picture::Picture;
+use crate::source::Source;
+use case::Case;
+use export::{Export, ExportError};
+use figures::{Figures, TruthFigures, Weight};
+use report::{FillReport, FrameCells, FrameFigures, SourceReport};
+
+/// What to compare.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Frames, design numbers, rounding; its fill does not count.
+    pub request: Request,
+    /// The fills, from cheap to rich.
+    pub cases: Vec<Case>,
+    /// The radius of a disc in the middle of the display, in pixels, inside of which nothing is judged.
+    pub fovea: Option<u32>,
+}
+
+/// What is said beside the sources.
+#[derive(Clone, Debug, Serialize)]
+pub struct Extra {
+    /// The radius of the disc inside of which nothing is judged.
+    pub fovea: Option<u32>,
+    /// The sources in which nothing is disoccluded.
+    pub nothing_disoccluded: Vec<String>,
+}
+
+/// Everything that was measured.
+pub type Document = super::Document<Extra, SourceReport>;
+
+impl Study for Plan {
+    type Source = Source;
+    type Job<'s> = Job<'s>;
+    type Report = SourceReport;
+    type Extra = Extra;
+
+    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+
+    fn name<'a>(&self, source: &'a Source) -> &'a str {
+        source.name()
+    }
+
+    fn resolve<'s>(&self, source: &'s Source) -> Result<Job<'s>, StudyError> {
+        Job::resolve(source, &self.request).map_err(StudyError::unusable)
+    }
+
+    fn pieces(&self, _job: &Job<'_>) -> u64 {
+        self.cases.len() as u64
+    }
+
+    fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
+        let export = stage.out.map(Export::new);
+        let report = compare(job, self, export.as_ref(), || (stage.tell)(Work::Done)).map_err(StudyError::unusable)?;
+        Ok(report.map_or(Found::Nothing(Nothing::Disoccluded), Found::Report))
+    }
+
+    fn text(&self, report: &SourceReport) -> String {
+        columns::text(report)
+    }
+
+    fn extra(&self, all: &Silent) -> Extra {
+        Extra { fovea: self.fovea, nothing_disoccluded: silent(all, Nothing::Disoccluded) }
+    }
+
+    fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
+        let csv = column::csv(&columns::columns(), document.sources.iter().flat_map(columns::rows));
+        let index = export::index(document).map_err(StudyError::failed)?;
+        let further = vec![("index.json".to_owned(), index.into_bytes())];
+        super::files("fills", csv, self.json(document), further, page::html(document))
+    }
+}
+
+/// Why a study cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum FillsError {
+    /// The source cannot be run.
+    #[error("{0}")]
+    Experiment(#[from] ExperimentError),
+    /// Pictures cannot be written.
+    #[error("{0}")]
+    Export(#[from] ExportError),
+}
+
+/// Compares the fills on a source; `None` if nothing is disoccluded in it. `done` is told of each fill that is through.
+///
+/// *Errors:* a budget that cannot exist or does not fit, pictures that cannot be written.
+pub fn study(
+    source: &Source,
+    plan: &Plan,
+    export: Option<&Export>,
+    done: impl Fn() + Sync,
+) -> Result<Option<SourceReport>, FillsError> {
+    compare(&Job::resolve(source, &plan.request)?, plan, export, done)
+}
+
+/// Compares the fills on a job, as [`study`] does.
+fn compare(
+    job: &Job<'_>,
+    plan: &Plan,
+    export: Option<&Export>,
+    done: impl Fn() + Sync,
+) -> Result<Option<SourceReport>, FillsError> {
+    let holes = holes::of(job, plan.fovea)?;
+    let Some(largest) = crops::largest(&holes) else { return Ok(None) };
+    if let Some(export) = export {
+        holes.iter().try_for_each(|holes| export.truth(job.source, holes))?;
+    }
+    let weights: Vec<Weight> = each(&holes).map(|(before, now)| Weight::of(before, now)).collect();
+    let truths: Vec<TruthFigures> = each(&holes).map(|(before, now)| figures::truth(before, now)).collect();
+    let judged = Judged { job, holes: &holes, truths: &truths, export };
+    let shown: Vec<Shown> = plan
+        .cases
+        .par_iter()
+        .map(|case| {
+            let shown = judged.show(case, largest.frame);
+            done();
+            shown
+        })
+        .collect::<Result<_, _>>()?;
+    let times = times::of(job, &plan.cases);
+    let mut crops = crops::of_truth(&holes, &largest);
+    let fills = shown.into_iter().zip(&plan.cases).zip(times).map(|((shown, case), time)| {
+        crops.extend(shown.largest.map(|picture| crops::crop(case.name, &picture, &largest)));
+        let frames = holes.iter().zip(&shown.figures);
+        FillReport {
+            name: case.name,
+            gamma: case.fill.inpaint().map(|inpaint| inpaint.gamma.name()),
+            depth_aware: case.fill.inpaint().map(|inpaint| inpaint.depth_aware),
+            time,
+            summary: figures::summary(&shown.figures, &weights),
+            frames: frames.map(|(holes, &figures)| FrameFigures { frame: holes.frame, figures }).collect(),
+        }
+    });
+    let fills = fills.collect();
+    Ok(Some(SourceReport {
+        source: job.source.name().to_owned(),
+        about: job.source.about().to_owned(),
+        width: job.update.display_width(),
+        height: job.update.display_height(),
+        frames: job.frames,
+        cells: holes.iter().map(cells).collect(),
+        truth: figures::truth_summary(&truths, &weights),
+        fills,
+        largest,
+        crops,
+    }))
+}
+
+/// Each frame with the one before it in the list.
+fn each(holes: &[Holes]) -> impl Iterator<Item = (Option<&Holes>, &Holes)> {
+    holes.iter().enumerate().map(|(index, now)| (index.checked_sub(1).map(|before| &holes[before]), now))
+}
+
+fn cells(holes: &Holes) -> FrameCells {
+    let (width, height) = (holes.truth.width, holes.truth.height);
+    let at_border = count(&crate::metric::area::at_border(&holes.all, width, height));
+    FrameCells { frame: holes.frame, missing: count(&holes.all), at_border, disoccluded: count(&holes.disoccluded) }
+}
+
+/// What a fill showed.
+struct Shown {
+    /// In each frame with a truth.
+    figures: Vec<Figures>,
+    /// The picture with the largest disocclusion.
+    largest: Option<Picture>,
+}
+
+/// What fills are judged by.
+struct Judged<'s> {
+    job: &'s Job<'s>,
+    holes: &'s [Holes],
+    truths: &'s [TruthFigures],
+    export: Option<&'s Export>,
+}
+
+impl Judged<'_> {
+    /// Runs a fill; keeps its picture of frame `wanted`.
+    fn show(&self, case: &Case, wanted: u32) -> Result<Shown, FillsError> {
+        let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), largest: None };
+        let mut written = Ok(());
+        let mut last: Option<(&Holes, Picture)> = None;
+        let mut frames = self.holes.iter().zip(self.truths).peekable();
+        run::job(&self.job.with_fill(case.fill).without_perception(), |frame| {
+            let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
+            let before = last.as_ref().map(|(before, picture)| (*before, picture));
+            shown.figures.push(figures::of(holes, frame.picture, before, truth));
+            if let (Some(export), Ok(())) = (self.export, &written) {
+                written = export.filled(self.job.source, holes, case.name, frame.picture);
+            }
+            if holes.frame == wanted {
+                shown.largest = Some(frame.picture.clone());
+            }
+            last = Some((holes, frame.picture.clone()));
+        })?;
+        written?;
+        Ok(shown)
+    }
+}

@@ -1,0 +1,118 @@
+//! The report as a page: how to read it, and for each source a table, a plot of error against time, and parts of the pictures.
+
+use maud::{Markup, html};
+
+use super::Document;
+use super::columns::{columns, summaries};
+use super::report::{FillReport, SourceReport};
+use crate::output::column;
+use crate::output::html::axis::Scale;
+use crate::output::html::scatter::{self, Mark, Scatter, Shape};
+use crate::output::html::text::{count, figure};
+use crate::output::html::{self as page, Head, style::Ink};
+use crate::study::{crops, ink};
+
+/// Returns the document as a self-contained page.
+#[must_use]
+pub fn html(document: &Document) -> String {
+    let intro = [
+        "A thing that moves away uncovers what the update never showed. Each fill below makes something up for it; every figure is \
+         over those cells alone."
+            .to_owned(),
+    ];
+    let mut facts = document.facts();
+    facts.extend(document.extra.fovea.map(|radius| ("Fovea".to_owned(), format!("{radius} px, not judged"))));
+    let main = html! {
+        (page::reading(READING))
+        @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
+        (foot(document))
+    };
+    page::document("galpix: what is put into holes", &intro, &facts, &main, &Markup::default())
+}
+
+const READING: &str = "\
+<li><b>Disoccluded</b> cells are those that no galpixel of the update reached, by the warp alone, and that are not connected with the \
+border. <b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over them, all other cells set to the truth, and means over the frames, \
+weighted by their cells.</li>\
+<li><b>Variance</b> is that of luma in the 7\u{00D7}7 cells around each. Less than the truth\u{2019}s is blurred. <b>Flicker</b> is the mean \
+change of luma from the frame before, where both frames are disoccluded, less that of the truth.</li>\
+<li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median, beside a \
+memory copy of the map in the same run (<b>\u{00D7} copy</b>). <b>SSIMULACRA2</b> is of the whole picture, 100 for equals.</li>";
+
+fn foot(document: &Document) -> Markup {
+    let mut notes = vec![
+        "fills.csv and fills.json beside this page hold every figure, frame by frame; index.json lists the pictures."
+            .to_owned(),
+    ];
+    let nothing = &document.extra.nothing_disoccluded;
+    if !nothing.is_empty() {
+        notes.push(format!("Nothing is disoccluded in {}.", nothing.join(", ")));
+    }
+    page::notes("Beside this", &notes)
+}
+
+fn section(index: usize, source: &SourceReport) -> Markup {
+    let frames = source.cells.len().max(1) as u64;
+    let tags = [
+        ("display", format!("{}\u{00D7}{}", source.width, source.height)),
+        ("frames with a truth", source.cells.len().to_string()),
+        ("disoccluded cells a frame", count(source.disoccluded() / frames)),
+        ("variance of the truth", figure(source.truth.variance, 1)),
+    ];
+    let body = html! {
+        (crops::html(&source.source, &source.largest, &source.crops))
+        div class="plots two" { (plot(source, &FLIP)) (plot(source, &VARIANCE)) }
+        (column::html("rows points", &columns(), &summaries(source)))
+    };
+    page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
+}
+
+/// What a plot shows over the time of a frame.
+struct Shown {
+    title: &'static str,
+    axis: &'static str,
+    remark: &'static str,
+    figure: fn(&FillReport) -> Option<f64>,
+    /// The truth's own.
+    truth: fn(&SourceReport) -> Option<f64>,
+}
+
+const FLIP: Shown = Shown {
+    title: "Error against time",
+    axis: "FLIP of the disoccluded cells",
+    remark: "Lower is better; 0 is the truth. To the right: what a frame costs.",
+    figure: |fill| fill.summary.flip,
+    truth: |_| None,
+};
+
+const VARIANCE: Shown = Shown {
+    title: "Texture against time",
+    axis: "local variance of the disoccluded cells",
+    remark: "The nearer to the truth\u{2019}s, which is the broken line, the better: below it is blurred.",
+    figure: |fill| fill.summary.variance,
+    truth: |source| source.truth.variance,
+};
+
+fn plot(source: &SourceReport, shown: &Shown) -> Markup {
+    let mark = |fill: &FillReport| {
+        Some(Mark {
+            at: (fill.time?.frame_us, (shown.figure)(fill)?),
+            bound: None,
+            radius: 5.0,
+            ink: ink::named(fill.name).unwrap_or(Ink::Axis),
+            shape: if fill.depth_aware.is_some() { Shape::Diamond } else { Shape::Disc },
+            label: fill.name.to_owned(),
+        })
+    };
+    let marks: Vec<Mark> = source.fills.iter().filter_map(mark).collect();
+    let courses =
+        (shown.truth)(source).and_then(|truth| scatter::level(truth, Ink::Guide, &marks)).into_iter().collect();
+    let drawing = scatter::svg(&Scatter {
+        description: format!("{}: {} against the time of a frame", source.source, shown.axis),
+        x: ("time of a frame, \u{00B5}s".to_owned(), Scale::Log { floor: 0.01 }),
+        y: (shown.axis.to_owned(), Scale::Linear),
+        courses,
+        marks,
+    });
+    page::plotted(shown.title, drawing, shown.remark)
+}

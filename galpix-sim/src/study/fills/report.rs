@@ -1,0 +1,81 @@
+//! What is reported, as it is written to JSON.
+
+use serde::Serialize;
+
+use super::figures::{Figures, TruthFigures};
+use crate::study::crops::{Crop, Largest};
+use crate::study::timing::Time;
+
+/// The cells of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct FrameCells {
+    /// Frames since the update.
+    pub frame: u32,
+    /// Cells that no galpixel of the update reached.
+    pub missing: u64,
+    /// Of these, those connected with the border.
+    pub at_border: u64,
+    /// Those that are judged: not connected with the border, and outside of the fovea.
+    pub disoccluded: u64,
+}
+
+/// A fill in a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FrameFigures {
+    /// Frames since the update.
+    pub frame: u32,
+    /// Its figures.
+    #[serde(flatten)]
+    pub figures: Figures,
+}
+
+/// A fill over all frames.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FillReport {
+    /// Its name.
+    pub name: &'static str,
+    /// The power of partial validity, where it inpaints.
+    pub gamma: Option<&'static str>,
+    /// Whether what is nearer is kept out, where it inpaints.
+    pub depth_aware: Option<bool>,
+    /// The time of a frame, the fill included.
+    pub time: Option<Time>,
+    /// Means over the frames, by disoccluded cells.
+    pub summary: Figures,
+    /// The frames with a truth.
+    pub frames: Vec<FrameFigures>,
+}
+
+/// A source.
+#[derive(Clone, Debug, Serialize)]
+pub struct SourceReport {
+    /// Scene or capture.
+    pub source: String,
+    /// What it shows.
+    pub about: String,
+    /// Columns of the display.
+    pub width: usize,
+    /// Rows of the display.
+    pub height: usize,
+    /// Frames extrapolated.
+    pub frames: u32,
+    /// The frames with a truth, ascending.
+    pub cells: Vec<FrameCells>,
+    /// The truth's own figures at the same cells.
+    pub truth: TruthFigures,
+    /// The fills, from cheap to rich.
+    pub fills: Vec<FillReport>,
+    /// The largest connected disoccluded area of all frames.
+    pub largest: Largest,
+    /// What was shown around it.
+    #[serde(skip)]
+    pub crops: Vec<Crop>,
+}
+
+impl SourceReport {
+    /// Disoccluded cells of all frames.
+    #[must_use]
+    pub fn disoccluded(&self) -> u64 {
+        self.cells.iter().map(|frame| frame.disoccluded).sum()
+    }
+}

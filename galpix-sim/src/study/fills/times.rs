@@ -1,0 +1,24 @@
+//! The time of a frame with each fill, in the form that the simulator runs: a budget chosen at run time.
+
+use super::case::Case;
+use crate::study::job::Job;
+use crate::study::timing::{Effort, Engine, Maker, Time, race};
+
+/// Frames that are timed in a round.
+const FRAMES: u32 = 8;
+/// Rounds that count.
+const ROUNDS: u32 = 3;
+/// Cells from which on one round counts.
+const LARGE: usize = 400_000;
+
+/// Returns the times of a frame of a job, one a fill.
+pub fn of(job: &Job<'_>, cases: &[Case]) -> Vec<Option<Time>> {
+    let make = |case: &Case| -> Maker<'_> {
+        let job = job.with_fill(case.fill);
+        let inpaint = case.fill.inpaint();
+        Box::new(move || Some(Box::new(Engine::new(&job.update, job.format, job.settings, inpaint)?)))
+    };
+    let makers: Vec<Maker<'_>> = cases.iter().map(make).collect();
+    let rounds = if job.update.samples.len() > LARGE { 1 } else { ROUNDS };
+    race(&job.update, Effort { rounds, frames: job.frames.min(FRAMES) }, &makers, || {})
+}

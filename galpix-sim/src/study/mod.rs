@@ -1,0 +1,244 @@
+//! Studies: what is run over sources, and what is said of it.
+//!
+//! ```text
+//! source ─▶ job (resolved once) ─▶ Study::study ─▶ report ─▶ rows ─▶ columns ─▶ csv | terminal | page
+//!                                                    └─▶ Document ─▶ json
+//! ```
+//!
+//! A [`Study`] says what is particular to it; the driver of the command line opens the sources, shows progress, prints and
+//! writes. No study imports another: what several of them use stands beside them, in [`crops`], [`holes`], [`ink`], [`job`],
+//! [`run`] and [`timing`].
+
+pub mod crops;
+pub mod ddoc;
+pub mod demo;
+pub mod error;
+pub mod fills;
+pub mod graft;
+pub mod holes;
+pub mod ink;
+pub mod job;
+pub mod layers;
+pub mod plan;
+pub mod run;
+pub mod stability;
+pub mod timing;
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::output::html::Fact;
+
+/// Why a study is not done.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// What was asked for cannot be used.
+    #[error("{0}")]
+    Unusable(String),
+    /// Anything else.
+    #[error("{0}")]
+    Failed(String),
+}
+
+impl StudyError {
+    /// Says that what was asked for cannot be used.
+    pub fn unusable(reason: impl ToString) -> Self {
+        Self::Unusable(reason.to_string())
+    }
+
+    /// Says what failed.
+    pub fn failed(reason: impl ToString) -> Self {
+        Self::Failed(reason.to_string())
+    }
+}
+
+/// How a study gets on.
+#[derive(Clone, Copy, Debug)]
+pub enum Work<'n> {
+    /// So many pieces of work more are known of.
+    Ahead(u64),
+    /// One piece is done.
+    Done,
+    /// One piece is done, and this is its name.
+    DoneWith(&'n str),
+}
+
+/// Where a study runs.
+pub struct Stage<'s> {
+    /// The folder that files go to, if any are written.
+    pub out: Option<&'s Path>,
+    /// Is told how the study gets on.
+    pub tell: &'s (dyn Fn(Work<'_>) + Sync),
+}
+
+/// Why nothing is said of a source.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nothing {
+    /// Nothing is disoccluded in it.
+    Disoccluded,
+    /// It knows nothing behind its first layer.
+    Hidden,
+}
+
+impl Nothing {
+    /// Returns what there is nothing of, in a sentence without its subject.
+    #[must_use]
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Disoccluded => "nothing is disoccluded",
+            Self::Hidden => "nothing is known behind its first layer; a capture says it in [update.hidden]",
+        }
+    }
+}
+
+/// Sources of which nothing is said, by name, and why.
+pub type Silent = Vec<(Nothing, String)>;
+
+/// Returns the names of the sources of which nothing is said for this reason.
+#[must_use]
+pub fn silent(all: &[(Nothing, String)], reason: Nothing) -> Vec<String> {
+    all.iter().filter(|(why, _)| *why == reason).map(|(_, name)| name.clone()).collect()
+}
+
+/// What a study found in a source.
+pub enum Found<R> {
+    /// Figures.
+    Report(R),
+    /// Nothing.
+    Nothing(Nothing),
+}
+
+/// Everything that was found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Document<E, R> {
+    /// Of galpix.
+    pub version: &'static str,
+    /// The call, as it can be repeated.
+    pub command: String,
+    /// Where it ran.
+    pub machine: String,
+    /// How long it took; none where that is not said.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seconds: Option<f64>,
+    /// What is said beside the sources.
+    #[serde(flatten)]
+    pub extra: E,
+    /// One a source, without those of which nothing is said.
+    pub sources: Vec<R>,
+}
+
+impl<E, R> Document<E, R> {
+    /// Returns what a page says of how it was made.
+    #[must_use]
+    pub fn facts(&self) -> Vec<Fact> {
+        let mut facts = vec![
+            ("Version".to_owned(), self.version.to_owned()),
+            ("Command".to_owned(), self.command.clone()),
+            ("Machine".to_owned(), self.machine.clone()),
+        ];
+        facts.extend(self.seconds.map(|seconds| ("Took".to_owned(), format!("{seconds:.0} s"))));
+        facts
+    }
+}
+
+/// Nothing beside the sources.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub struct NoExtra {}
+
+/// Where the path of a study's last file, which is its page, is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Nowhere.
+    Nowhere,
+    /// On standard output, unless JSON is printed there.
+    Printed,
+    /// On standard output, and on standard error where JSON is printed.
+    Always,
+}
+
+/// A file of a study: its name and its bytes.
+pub type File = (String, Vec<u8>);
+
+/// A study: what it does with each source, and how what it found is said.
+pub trait Study {
+    /// A source as it was opened.
+    type Source;
+    /// What follows from a source and what is asked of it.
+    type Job<'s>;
+    /// What is found in a source.
+    type Report: Serialize;
+    /// What is said beside the sources.
+    type Extra: Serialize;
+
+    /// What the columns of its tables are; said at the end.
+    const LEGEND: Option<&'static str> = None;
+    /// Whether it is said how long the study took.
+    const SECONDS: bool = true;
+    /// Where the path of its last file is said.
+    const PATH: Told = Told::Printed;
+
+    /// Returns the source's name.
+    fn name<'a>(&self, source: &'a Self::Source) -> &'a str;
+
+    /// Resolves what is asked of a source, before anything is run.
+    ///
+    /// *Errors:* what cannot be run.
+    fn resolve<'s>(&self, source: &'s Self::Source) -> Result<Self::Job<'s>, StudyError>;
+
+    /// Returns how many pieces of work a source takes, as far as that is known before.
+    fn pieces(&self, job: &Self::Job<'_>) -> u64;
+
+    /// Studies a source.
+    ///
+    /// *Errors:* a source that cannot be run, files that cannot be written.
+    fn study(&self, job: &Self::Job<'_>, stage: &Stage<'_>) -> Result<Found<Self::Report>, StudyError>;
+
+    /// Returns what the terminal says before the first source.
+    fn head(&self) -> Option<String> {
+        None
+    }
+
+    /// Returns what the terminal says of a source.
+    fn text(&self, report: &Self::Report) -> String;
+
+    /// Returns what is said beside the sources; `silent` are those of which nothing is said.
+    fn extra(&self, silent: &Silent) -> Self::Extra;
+
+    /// Returns the document as JSON.
+    ///
+    /// *Errors:* none that are known; what the serialiser says.
+    fn json(&self, document: &Document<Self::Extra, Self::Report>) -> serde_json::Result<String> {
+        serde_json::to_string_pretty(document)
+    }
+
+    /// Returns the files, in the order in which they are written: where the last one is, the others are there too.
+    ///
+    /// *Errors:* a file that cannot be made.
+    fn files(&self, document: &Document<Self::Extra, Self::Report>) -> Result<Vec<File>, StudyError>;
+
+    /// Says whether what was found is as it must be.
+    ///
+    /// *Errors:* what is not.
+    fn verdict(&self, _document: &Document<Self::Extra, Self::Report>) -> Result<(), StudyError> {
+        Ok(())
+    }
+}
+
+/// Returns `NAME.csv`, `NAME.json`, further files, and `NAME.html`, in this order.
+///
+/// *Errors:* text that cannot be made.
+fn files(
+    name: &str,
+    csv: csv::Result<String>,
+    json: serde_json::Result<String>,
+    further: Vec<File>,
+    page: String,
+) -> Result<Vec<File>, StudyError> {
+    let csv = csv.map_err(StudyError::failed)?;
+    let json = json.map_err(StudyError::failed)? + "\n";
+    let mut files = vec![(format!("{name}.csv"), csv.into_bytes()), (format!("{name}.json"), json.into_bytes())];
+    files.extend(further);
+    files.push((format!("{name}.html"), page.into_bytes()));
+    Ok(files)
+}

@@ -1,0 +1,136 @@
+//! A build, run over the update it is made for.
+
+use std::time::Duration;
+
+use galpix_core::{Dynamic, Format, Record, Settings};
+use serde::Serialize;
+
+use super::{Build, PlanError};
+use crate::engine::Engine;
+use crate::metric;
+use crate::picture::Picture;
+use crate::source::Source;
+use crate::study::job::Request;
+use crate::study::run;
+use crate::update::Update;
+
+/// Rounds of timing: in each, every build runs once.
+const ROUNDS: u32 = 3;
+
+/// What was seen when a build was run.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Measured {
+    /// The worst position error of any galpixel in any frame, against the exact second-order path, in pixels.
+    pub worst_px: Option<f64>,
+    /// Whether that is within what was certified; null where nothing was.
+    pub within_certificate: Option<bool>,
+    /// Fields that were clamped, when stored or on the way: none is covered by a certificate.
+    pub saturated: u64,
+    /// The median time of a frame, in microseconds, with the budget chosen at run time.
+    pub frame_us: f64,
+}
+
+/// A source and how it is run.
+pub struct Subject<'s> {
+    pub source: &'s Source,
+    pub update: &'s Update,
+    pub request: &'s Request,
+    pub frames: u32,
+}
+
+/// A run of a build.
+pub struct Ran {
+    /// The picture of each frame.
+    pub pictures: Vec<Picture>,
+    /// Holes of all frames.
+    pub holes: u64,
+    /// Of these, those that were just unobscured or stayed empty.
+    pub unobscured: u64,
+    worst_px: Option<f64>,
+    saturated: u64,
+}
+
+impl Subject<'_> {
+    /// The settings of a build with this stored form.
+    pub fn settings(&self, build: &Build, record: &Record) -> Settings {
+        let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..*self.request };
+        request.settings(record, self.update.depth_kind)
+    }
+
+    fn engine(&self, build: &Build) -> Result<Engine, PlanError> {
+        let format = Dynamic::new(build.bits, build.layout)?;
+        Ok(Engine::new(format, self.settings(build, format.record())))
+    }
+
+    /// Runs a build over all frames.
+    pub fn run(&self, build: &Build) -> Result<Ran, PlanError> {
+        let mut ran = Ran { pictures: Vec::new(), holes: 0, unobscured: 0, worst_px: None, saturated: 0 };
+        let loaded = self.engine(build)?.run(self.update, self.frames, |frame| {
+            if frame.number == 0 {
+                return;
+            }
+            let tally = frame.tally;
+            ran.holes += u64::from(tally.holes);
+            ran.unobscured += u64::from(tally.holes - tally.bullets);
+            ran.saturated += u64::from(tally.saturated);
+            ran.pictures.push(frame.picture());
+            let position = run::position(self.source, self.update, frame, |origin| Some(origin as usize));
+            if let Some(position) = position {
+                ran.worst_px = Some(ran.worst_px.map_or(position.worst_px, |worst| worst.max(position.worst_px)));
+            }
+        })?;
+        ran.saturated += u64::from(loaded.saturated);
+        Ok(ran)
+    }
+}
+
+impl Ran {
+    /// The share of pixels, over all frames, that differ from those of another run.
+    pub fn differs(&self, other: &Self) -> f64 {
+        let pairs = self.pictures.iter().zip(&other.pictures).flat_map(|(a, b)| a.pixels.iter().zip(&b.pixels));
+        let (different, all) =
+            pairs.fold((0u64, 0u64), |(different, all), (a, b)| (different + u64::from(a != b), all + 1));
+        different as f64 / all.max(1) as f64
+    }
+
+    /// The mean likeness to the truth, over the frames whose truth is known.
+    pub fn psnr_db(&self, subject: &Subject<'_>) -> Option<f64> {
+        let known = (1..).zip(&self.pictures).filter_map(|(frame, picture)| {
+            let truth = subject.source.truth(frame)?;
+            metric::psnr_db(picture, &truth.picture, truth.mask.as_deref())
+        });
+        let (sum, count) = known.fold((0.0, 0u32), |(sum, count), psnr_db| (sum + psnr_db, count + 1));
+        (count > 0).then(|| sum / f64::from(count))
+    }
+
+    /// What is reported of this run; its time is measured later, beside others.
+    pub fn measured(&self, certified_px: Option<f64>) -> Measured {
+        // The import itself rounds to 32 fraction bits.
+        let slack = 1e-6;
+        Measured {
+            worst_px: self.worst_px,
+            within_certificate: self.worst_px.zip(certified_px).map(|(worst, certified)| worst <= certified + slack),
+            saturated: self.saturated,
+            frame_us: 0.0,
+        }
+    }
+}
+
+/// Times several builds, in turn, so that they share what the machine does meanwhile.
+pub fn time(subject: &Subject<'_>, builds: &mut [(Build, &mut Measured)]) -> Result<(), PlanError> {
+    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); builds.len()];
+    for _ in 0..ROUNDS {
+        for ((build, _), times) in builds.iter().zip(&mut times) {
+            subject.engine(build)?.run(subject.update, subject.frames, |frame| {
+                if frame.number > 0 {
+                    times.push(frame.time);
+                }
+            })?;
+        }
+    }
+    for ((_, measured), mut times) in builds.iter_mut().zip(times) {
+        times.sort();
+        measured.frame_us = times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6);
+    }
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! What a run reports, as it is written to JSON.
+
+use galpix_core::{Bits, Demand, Record};
+use serde::Serialize;
+
+use crate::certificate::Certificate;
+use crate::engine::LoadTally;
+use crate::source::capture::Census;
+use crate::source::hidden::HiddenReport;
+
+/// The widths in use, as they are reported.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BudgetReport {
+    /// `D` in pixels.
+    pub extent: u32,
+    /// `tau_recog` in frames.
+    pub recog: u32,
+    /// `tau_prop` in frames.
+    pub prop: u32,
+    /// Equation (11).
+    pub position_frac_bits: u32,
+    /// Equation (8).
+    pub velocity_int_bits: u32,
+    /// Equation (13).
+    pub velocity_frac_bits: u32,
+    /// Equation (9).
+    pub acceleration_int_bits: u32,
+    /// Equation (12).
+    pub acceleration_frac_bits: u32,
+    /// Equation (14).
+    pub motion_bits_per_component: u32,
+    /// Three components, in bytes.
+    pub motion_bytes_per_galpixel: f64,
+    /// With colour, depth and flags, in whole words.
+    pub stored_bytes_per_galpixel: usize,
+}
+
+impl BudgetReport {
+    /// Reports the widths of a stored form, and the design numbers that they come from.
+    #[must_use]
+    pub fn of(demand: Demand, bits: Bits, record: &Record) -> Self {
+        Self {
+            extent: demand.extent,
+            recog: demand.recog,
+            prop: demand.prop,
+            position_frac_bits: bits.x.position_frac,
+            velocity_int_bits: bits.x.velocity_int,
+            velocity_frac_bits: bits.x.velocity_frac,
+            acceleration_int_bits: bits.x.acceleration_int,
+            acceleration_frac_bits: bits.x.acceleration_frac,
+            motion_bits_per_component: bits.x.motion_bits(),
+            motion_bytes_per_galpixel: f64::from(bits.x.motion_bits() + bits.y.motion_bits() + bits.z.motion_bits())
+                / 8.0,
+            stored_bytes_per_galpixel: record.bytes(),
+        }
+    }
+}
+
+/// What the comparison with a truth gave.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TruthReport {
+    /// Of the whole picture.
+    pub psnr_db: Option<f64>,
+    /// Of the unmoved picture of the update.
+    pub psnr_hold_db: Option<f64>,
+    /// Of the cells that a galpixel of the update reached.
+    pub psnr_known_db: Option<f64>,
+    /// Structural similarity.
+    pub ssim: Option<f64>,
+    /// Mean FLIP.
+    pub flip: Option<f64>,
+    /// Cells of the truth that no galpixel of the update reached.
+    pub missing: u64,
+    /// Of these, how many are connected with the border: what enters the picture.
+    pub missing_at_border: u64,
+}
+
+/// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each galpixel
+/// the worse of x and y.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PositionReport {
+    /// The worst, against the exact second-order path of the update's motion: what the certificate bounds.
+    pub worst_px: f64,
+    /// The mean, against the same path.
+    pub mean_px: f64,
+    /// The worst, against the true motion, where that is known: with what second order cannot know.
+    pub truth_worst_px: Option<f64>,
+    /// The mean, against the true motion.
+    pub truth_mean_px: Option<f64>,
+}
+
+/// One frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FrameReport {
+    /// Frames since the update.
+    pub frame: u32,
+    /// Cells that nothing reached in this frame.
+    pub holes: u32,
+    /// Of these, how many something was put into.
+    pub filled: u32,
+    /// Filled as bullet holes.
+    pub bullets: u32,
+    /// Just unobscured: filled with debris.
+    pub debris: u32,
+    /// Just unobscured: filled with a delayed galpixel.
+    pub galdebris: u32,
+    /// Left the map over its border.
+    pub lost: u32,
+    /// Discarded in collisions.
+    pub collided: u32,
+    /// Fields clamped to their range.
+    pub saturated: u32,
+    /// Cells on the edge of a surface.
+    pub edges: u32,
+    /// Time of the engine for each galpixel moved.
+    pub ns_per_galpixel: f64,
+    /// Of the galpixels of the update that are still on the map.
+    pub position: Option<PositionReport>,
+    /// Cells of the display that show a galpixel of a layer behind the first, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from_hidden: Option<u32>,
+    /// Where a truth is known.
+    pub truth: Option<TruthReport>,
+}
+
+/// A whole run.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunReport {
+    /// Scene or capture.
+    pub source: String,
+    /// Columns of the display.
+    pub width: usize,
+    /// Rows of the display.
+    pub height: usize,
+    /// The widths.
+    pub budget: BudgetReport,
+    /// Rounding of positions.
+    pub rounding: &'static str,
+    /// Rung of the fill ladder.
+    pub fill: &'static str,
+    /// Laplacian threshold, in units of the depth's last bit.
+    pub edge_threshold: u32,
+    /// Median over the frames.
+    pub ns_per_galpixel: f64,
+    /// What entered with the update.
+    pub loaded: LoadTally,
+    /// What was handed over beside the first layer, if anything was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hidden: Option<HiddenReport>,
+    /// What was known of a capture's cells.
+    pub census: Option<Census>,
+    /// The certificate in x and y.
+    pub certificate: Certificate,
+    /// The frames from 1 on.
+    pub frames: Vec<FrameReport>,
+}
