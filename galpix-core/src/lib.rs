@@ -66,6 +66,7 @@ mod fast;
 mod format;
 mod frame;
 mod map;
+mod maps;
 mod output;
 
 pub mod ddoc;
@@ -123,4 +124,5 @@ pub use inpaint::Inpainting;
 pub use map::Galpixmap;
 pub use map::galpixel::{Class, Galpixel};
 pub use map::grid::{Grid, Margin};
+pub use maps::Maps;
 pub use objects::graft::{Grafted, graft};

@@ -25,7 +25,7 @@ use crate::frame::edge;
 use crate::frame::step::thresholds;
 use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings};
-use crate::inpaint::{Inpainting, PushPull};
+use crate::inpaint::{Inpainting, Metamer, PushPull};
 use crate::map::Galpixmap;
 
 /// Returns the largest number of rows that a galpixel moves in a frame.
@@ -142,6 +142,13 @@ impl<'p, F: Format> Rolling<'p, F> {
     /// ignored, because the map before no longer exists; holes keep the depth that the fill mode gave them.
     pub fn inpaint(&mut self, inpainting: &Inpainting<'_>, push_pull: &mut PushPull<'_>) -> u32 {
         F::push_pull(&mut self.map, inpainting, push_pull)
+    }
+
+    /// Inpaints the cells that the last step unobscured by metamers: as [`Self::inpaint`], with a texture.
+    ///
+    /// *Errors:* memory that is too short for the map; then nothing is filled.
+    pub fn synthesise(&mut self, inpainting: &Inpainting<'_>, metamer: &mut Metamer<'_>) -> Result<u32, SetupError> {
+        F::metamers(&mut self.map, inpainting, metamer, self.frame)
     }
 
     /// Makes row `y` of the window empty, if there is such a row.

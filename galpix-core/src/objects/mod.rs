@@ -27,12 +27,10 @@ pub(crate) mod graft;
 mod queue;
 mod refusal;
 mod remove;
-mod stack;
 
 pub use graft::Delay;
 pub use queue::{Limits, Pending, Places, Queue};
 pub use refusal::{Refusal, Refusals};
-pub use stack::Stack;
 
 use crate::format::Format;
 use crate::format::record::MAX_WORDS;

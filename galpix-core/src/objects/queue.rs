@@ -6,7 +6,8 @@ use heapless::deque::DequeView;
 use crate::error::SetupError;
 use crate::format::Format;
 use crate::format::rounding::Rounding;
-use crate::objects::{Object, ObjectsTally, Refusal, Refusals, Stack, replace};
+use crate::maps::Maps;
+use crate::objects::{Object, ObjectsTally, Refusal, Refusals, replace};
 
 /// Limits of a queue. The number of renderings that may wait is that of its [`Places`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,8 +99,13 @@ impl<'q, F: Format> Queue<'q, F> {
     /// Appends a new rendering of an object, which enters its layer in a later [`Self::apply`]. Copies `words`.
     ///
     /// *Errors:* see [`Refusal`]. A refused rendering is counted and changes nothing else.
-    pub fn submit<'p>(&mut self, stack: &impl Stack<'p, F>, object: &Object, words: &[u32]) -> Result<(), Refusal> {
-        let checked = self.checked(stack, object, words);
+    pub fn submit<'p>(
+        &mut self,
+        maps: &impl Maps<'p, Format = F>,
+        object: &Object,
+        words: &[u32],
+    ) -> Result<(), Refusal> {
+        let checked = self.checked(maps, object, words);
         match checked {
             Ok(pending) => {
                 // `checked` has found a free place.
@@ -112,17 +118,22 @@ impl<'q, F: Format> Queue<'q, F> {
         checked.map(|_| ())
     }
 
-    fn checked<'p>(&self, stack: &impl Stack<'p, F>, object: &Object, words: &[u32]) -> Result<Pending, Refusal> {
+    fn checked<'p>(
+        &self,
+        maps: &impl Maps<'p, Format = F>,
+        object: &Object,
+        words: &[u32],
+    ) -> Result<Pending, Refusal> {
         let record = self.format.record();
         let Object { tag, layer, stamp, place, size } = *object;
         let bits = u32::from(record.tag().bits);
         if bits < 32 && tag >> bits != 0 {
             return Err(Refusal::Tag { tag, bits });
         }
-        if !stack.takes(layer) {
+        if !maps.takes(layer as usize) {
             return Err(Refusal::Layer { layer });
         }
-        let grid = stack.shown().grid();
+        let grid = maps.shown().grid();
         let [right, bottom] = [place[0].saturating_add(size[0]), place[1].saturating_add(size[1])];
         if right > grid.width() || bottom > grid.height() {
             return Err(Refusal::Place { place, size });
@@ -137,7 +148,7 @@ impl<'q, F: Format> Queue<'q, F> {
         if need != have {
             return Err(Refusal::Words { need, have });
         }
-        let age = stack.now().wrapping_sub(stamp);
+        let age = maps.frame().wrapping_sub(stamp);
         if (age as i32) < 0 {
             return Err(Refusal::Ahead { frames: age.wrapping_neg() });
         }
@@ -162,8 +173,8 @@ impl<'q, F: Format> Queue<'q, F> {
     ///
     /// *Cost:* at most `most` or [`Limits::cells_each`] cells, whichever is more, with at most [`Limits::age`] steps
     /// each. For each rendering all cells of its layer are searched for the tag.
-    pub fn apply<'p>(&mut self, stack: &mut impl Stack<'p, F>, rounding: Rounding, most: u32) -> ObjectsTally {
-        let now = stack.now();
+    pub fn apply<'p>(&mut self, maps: &mut impl Maps<'p, Format = F>, rounding: Rounding, most: u32) -> ObjectsTally {
+        let now = maps.frame();
         let (mut tally, mut handled) = (ObjectsTally::default(), 0u32);
         while let Some(&pending) = self.pending.front() {
             let begun = tally.renderings != 0;
@@ -174,7 +185,7 @@ impl<'q, F: Format> Queue<'q, F> {
             let age = now.wrapping_sub(object.stamp);
             if age > self.limits.age {
                 self.refusals.count(Refusal::Age { age, most: self.limits.age });
-            } else if let Some(map) = stack.layer(object.layer) {
+            } else if let Some(map) = maps.layer_mut(object.layer as usize) {
                 let (first, rest) = slices(self.ring, self.head, words);
                 tally.add(&replace(map, &object, first.iter().chain(rest).copied(), rounding, now));
                 handled = handled.saturating_add(cells);

@@ -3,7 +3,7 @@
 use galpix_core::FillMode;
 
 pub use self::stage::Inpainter;
-pub use galpix_core::inpaint::validity::Gamma;
+pub use galpix_core::inpaint::Gamma;
 
 mod stage;
 

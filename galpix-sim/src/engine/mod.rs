@@ -5,7 +5,6 @@ pub mod fill;
 mod layer;
 mod load;
 mod origins;
-mod show;
 
 use std::time::Duration;
 
@@ -18,7 +17,6 @@ pub use layer::Beside;
 pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
-pub use show::Show;
 
 use crate::picture::Picture;
 use crate::update::Update;
@@ -146,7 +144,8 @@ impl Engine {
         if beside.is_empty() {
             let mut controller = memory.controller(update, self.format)?;
             let loaded = load(update, controller.front_mut());
-            let used = self.frames(controller, delivered, frames, &mut visit)?;
+            let step = if self.constant_time { Controller::step_constant_time } else { Controller::step };
+            let used = self.frames(Stepped { maps: controller, step }, delivered, frames, &mut visit)?;
             return Ok(Ran { loaded, beside: Vec::new(), used });
         }
         let mut starts = memory.starts.clone();
@@ -161,20 +160,20 @@ impl Engine {
         let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
         let loaded_beside = (1..).zip(beside).filter_map(store).collect();
         layers.composite();
-        let used = self.frames(layers, delivered, frames, &mut visit)?;
+        let used = self.frames(Stepped { maps: layers, step: Maps::step }, delivered, frames, &mut visit)?;
         Ok(Ran { loaded, beside: loaded_beside, used })
     }
 
     /// Shows the update and `frames` frames; returns which samples were ever shown.
     fn frames<'p>(
         &self,
-        mut show: impl Show<'p, Dynamic>,
+        Stepped { mut maps, step }: Stepped<impl Maps<'p, Format = Dynamic>>,
         Delivered { update, beside }: Delivered<'_>,
         frames: u32,
         visit: Visit<'_>,
     ) -> Result<Vec<bool>, EngineError> {
-        let grid = *show.front().grid();
-        let colour = *show.front().record().colour_format();
+        let grid = *maps.shown().grid();
+        let colour = *maps.shown().record().colour_format();
         let mut rows = vec![0; Grid::rows(grid.display_height(), Margin::NONE)];
         let display = Grid::new(grid.display_width(), grid.display_height(), Margin::NONE, &mut rows)?;
         let mut pinned = vec![0; if update.overlay.is_some() { Overlay::words(&display) } else { 0 }];
@@ -194,22 +193,24 @@ impl Engine {
         for number in 0..=frames {
             if number > 0 {
                 let started = ThreadTime::now();
-                tally = if self.constant_time {
-                    show.step_constant_time(&self.settings)
-                } else {
-                    show.step(&self.settings)
-                };
+                tally = step(&mut maps, &self.settings);
                 if let Some(inpainter) = &mut inpainter {
-                    inpainter.paint(&mut show, &self.settings);
+                    inpainter.paint(&mut maps, &self.settings);
                 }
                 time = started.elapsed();
-                origins.follow(&show, beside);
+                origins.follow(&maps, beside);
             }
-            origins.look(&show, beside, display_cells(&grid));
-            visit(&Frame { number, tally, time, map: show.front(), overlay, origins: &origins.shown });
+            origins.look(&maps, beside, display_cells(&grid));
+            visit(&Frame { number, tally, time, map: maps.shown(), overlay, origins: &origins.shown });
         }
         Ok(origins.used)
     }
+}
+
+/// Maps, and how their next frame is made.
+struct Stepped<M> {
+    maps: M,
+    step: fn(&mut M, &Settings) -> Tally,
 }
 
 type Visit<'v> = &'v mut dyn FnMut(&Frame<'_>);

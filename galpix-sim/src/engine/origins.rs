@@ -1,10 +1,9 @@
 //! Which sample of which layer each cell holds and shows.
 
 use galpix_core::stages::FILLED;
-use galpix_core::{Class, Dynamic};
+use galpix_core::{Class, Dynamic, Maps};
 
 use super::layer::Beside;
-use super::show::Show;
 use crate::update::{Known, Update};
 
 /// In an origin map: this cell does not hold a galpixel of the update.
@@ -37,26 +36,31 @@ impl Origins {
     }
 
     /// Follows a step; `beside` are the layers that it was made with.
-    pub fn follow<'p>(&mut self, show: &impl Show<'p, Dynamic>, beside: &[Beside<'_>]) {
+    pub fn follow<'p>(&mut self, maps: &impl Maps<'p, Format = Dynamic>, beside: &[Beside<'_>]) {
         for (layer, own) in self.own.iter_mut().enumerate() {
             // Samples that stay where they are stored keep their numbers.
             if layer == 0 || matches!(beside[layer - 1], Beside::Moving(_)) {
-                *own = show.winners(layer).iter().map(|&winner| origin(own, winner)).collect();
+                *own = maps.winners(layer).iter().map(|&winner| origin(own, winner)).collect();
             }
         }
     }
 
     /// Notes what is shown; `seen` are the cells of the display.
-    pub fn look<'p>(&mut self, show: &impl Show<'p, Dynamic>, beside: &[Beside<'_>], seen: impl Iterator<Item = u32>) {
+    pub fn look<'p>(
+        &mut self,
+        maps: &impl Maps<'p, Format = Dynamic>,
+        beside: &[Beside<'_>],
+        seen: impl Iterator<Item = u32>,
+    ) {
         let shown = (0..self.cells as u32).map(|cell| {
-            if show.front().class(cell) != Class::Galpixel {
+            if maps.shown().class(cell) != Class::Galpixel {
                 return NO_ORIGIN;
             }
-            let layer = show.layer_at(cell);
+            let layer = maps.layer_at(cell);
             let Some(own) = self.own.get(layer) else { return NO_ORIGIN };
             match layer.checked_sub(1).map(|beside_| &beside[beside_]) {
                 Some(Beside::Anchored { .. }) => {
-                    show.winners(layer).get(cell as usize).map_or(NO_ORIGIN, |&stored| origin(own, stored))
+                    maps.winners(layer).get(cell as usize).map_or(NO_ORIGIN, |&stored| origin(own, stored))
                 }
                 _ => own[cell as usize],
             }

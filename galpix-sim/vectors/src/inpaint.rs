@@ -1,10 +1,8 @@
 //! Which cases of inpainting there are: every layout under its budget, with pictures that leave holes.
 
-use galpix_core::inpaint::push_pull::Rule;
-use galpix_core::inpaint::pyramid::DEPTH_BITS;
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{Gamma, Inpainting};
 use galpix_core::stages::threshold_for_depth;
-use galpix_core::{Bits, Colour, Demand, FillMode, Inpainting, Layout, Rounding, Settings};
+use galpix_core::{Bits, Colour, Demand, FillMode, Layout, Rounding, Settings};
 
 use crate::case::{Case, GridSize};
 use crate::choice::grid;
@@ -75,11 +73,12 @@ fn case(seed: u64, model: &Model, picture: Picture, grid: GridSize) -> Result<Ca
     };
     let constant_time = one_of([0, 0, 0, 1, 1, 1]) == 1;
     let gamma = Gamma::ALL[one_of([0, 0, 1, 1, 2, 2]) as usize];
-    let by_default = Inpainting::for_depth(model.depth_bits(), gamma).rule.threshold;
+    let by_default = Inpainting::for_depth(model.depth_bits(), gamma).threshold;
     // The distance between depths of the random map.
-    let quarter = 1 << model.depth_bits().saturating_sub(2).min(DEPTH_BITS - 2);
+    let quarter = 1 << model.depth_bits().saturating_sub(2).min(Inpainting::DEPTH_BITS - 2);
     let paint = Paint {
-        rule: Rule { gamma, threshold: one_of([by_default, by_default, by_default, 0, u32::MAX, quarter]) },
+        gamma,
+        threshold: one_of([by_default, by_default, by_default, 0, u32::MAX, quarter]),
         background: picture == Picture::Tear || one_of([0, 0, 1, 1, 1, 1]) == 1,
         motion: one_of([0, 0, 1, 1, 1, 1]) == 1,
         masked_quarters: one_of([0, 0, 0, 0, 3, 4]),

@@ -1,15 +1,11 @@
 //! The core, run over a case's inputs.
 
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::map::Filling;
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::push_pull::Rule;
-use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
+use galpix_core::inpaint::{Gamma, Inpainting, Motion, PushPull};
 use galpix_core::record::{Component, Scale};
 use galpix_core::stages::{self, clamp_velocity, snap, step_position, step_velocity};
 use galpix_core::{
-    Bits, BudgetError, Controller, Dynamic, Format, Galpixmap, Grid, Inpainting, Layout, Margin, Record, Rounding,
-    Scratch, Settings, SetupError, Tally,
+    Bits, BudgetError, Controller, Dynamic, Format, Galpixmap, Grid, Layout, Margin, Record, Rounding, Scratch,
+    Settings, SetupError, Tally,
 };
 
 use crate::arrivals::{Arrival, arrivals, settle};
@@ -64,8 +60,10 @@ impl Plan {
 /// How a frame is painted.
 #[derive(Clone, Copy, Debug)]
 pub struct Paint {
-    /// Validity, and what foreground is.
-    pub rule: Rule,
+    /// The power of the validity.
+    pub gamma: Gamma,
+    /// How much nearer than the background foreground is at least.
+    pub threshold: u32,
     /// The depth of the background first.
     pub background: bool,
     /// Motion and not colour alone.
@@ -205,12 +203,11 @@ impl Model {
         }
         let after = planes(controller.front());
         let edges = controller.edges().to_vec();
-        let inpainting = Inpainting { rule: paint.rule, quads: paint.background, mask: &mask };
-        if paint.motion {
-            inpaint::<Moving>(&mut controller, &plan.settings, &inpainting)?;
-        } else {
-            inpaint::<Tint>(&mut controller, &plan.settings, &inpainting)?;
-        }
+        let Paint { gamma, threshold, background: quads, .. } = *paint;
+        let motion = if paint.motion { Motion::Inpainted } else { Motion::Kept };
+        let mut words = vec![0; PushPull::words(grid.width(), grid.height(), motion)];
+        let mut push_pull = PushPull::new(grid.width(), grid.height(), motion, &mut words)?;
+        controller.inpaint(&plan.settings, &Inpainting { gamma, threshold, quads, mask: &mask }, &mut push_pull);
         let map = planes(controller.front());
         let Settings { rounding, edge_threshold, reach, .. } = plan.settings;
         Ok(Content::Inpaint(Inpaint {
@@ -219,8 +216,8 @@ impl Model {
             reach,
             threshold: edge_threshold,
             frame: plan.frame,
-            gamma: paint.rule.gamma.name().to_owned(),
-            inpaint_threshold: paint.rule.threshold,
+            gamma: paint.gamma.name().to_owned(),
+            inpaint_threshold: paint.threshold,
             motion: paint.motion,
             background: paint.background,
             mask,
@@ -230,18 +227,6 @@ impl Model {
             map,
         }))
     }
-}
-
-fn inpaint<V: Filling>(
-    controller: &mut Controller<'_, Dynamic>,
-    settings: &Settings,
-    inpainting: &Inpainting<'_>,
-) -> Result<(), SetupError> {
-    let (columns, rows) = (controller.front().grid().width(), controller.front().grid().height());
-    let mut cells = vec![Cell::default(); levels::cells(columns, rows)];
-    let mut states = vec![0; state_words(cells.len())];
-    controller.inpaint(settings, inpainting, &mut Pyramid::<V>::new(columns, rows, &mut cells, &mut states)?);
-    Ok(())
 }
 
 /// Runs the step kernel over some states of a component.

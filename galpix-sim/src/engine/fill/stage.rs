@@ -1,71 +1,39 @@
 //! The core's inpainting over memory of the host.
 
-use galpix_core::inpaint::features::Workspace;
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::metamer::{self, Recipe};
-use galpix_core::inpaint::needs;
-use galpix_core::inpaint::noise::Tiles;
-use galpix_core::inpaint::paint::Moving;
-use galpix_core::inpaint::push_pull::Rule;
-use galpix_core::inpaint::pyramid::{Cell, DEPTH_BITS, Pyramid, state_words};
-use galpix_core::inpaint::statistics::Moments;
-use galpix_core::inpaint::tone::Tone;
-use galpix_core::{Format, Grid, Inpainting, Settings};
+use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, PushPull, Recipe};
+use galpix_core::{Format as _, Grid, Maps, Settings};
 
 use super::{Inpaint, Kind, in_fovea};
-use crate::engine::Show;
 
 /// Inpaints maps of one grid, frame by frame.
 pub struct Inpainter {
     inpaint: Inpaint,
     size: [u32; 2],
     memory: Memory,
-    /// A bit for each cell that is worth it; empty for all.
+    /// A bit for each cell where to inpaint; empty for all.
     mask: Vec<u32>,
 }
 
-/// What is lent to the core.
+/// The buffers that the core works in.
 enum Memory {
-    PushPull {
-        cells: Vec<Cell<Moving>>,
-        states: Vec<u32>,
-    },
-    Metamer {
-        recipe: Recipe,
-        tones: Vec<Cell<Tone>>,
-        moments: Vec<Cell<Moments>>,
-        states: [Vec<u32>; 2],
-        needs: Vec<needs::Tile>,
-        workspace: Box<Workspace>,
-        noise: Box<Tiles>,
-    },
+    PushPull(Vec<u32>),
+    Metamer(Vec<u32>, Box<MetamerWorkspace>),
 }
 
 impl Memory {
     fn new(kind: Kind, [width, height]: [u32; 2]) -> Self {
-        let count = levels::cells(width, height);
-        let states = || vec![0; state_words(count)];
         match kind {
-            Kind::PushPull => Self::PushPull { cells: vec![Cell::unknown(Moving::default()); count], states: states() },
+            Kind::PushPull => Self::PushPull(vec![0; PushPull::words(width, height, Motion::Inpainted)]),
             Kind::Metamer => {
-                // Rule and age are the controller's.
-                let recipe = Recipe::new(0, 0);
-                Self::Metamer {
-                    recipe,
-                    tones: vec![Cell::unknown(Tone::default()); count],
-                    moments: vec![Cell::unknown(Moments::default()); count],
-                    states: [states(), states()],
-                    needs: vec![needs::Tile::default(); needs::tiles(width, height, recipe.levels)],
-                    workspace: Box::new(Workspace::new()),
-                    noise: Box::default(),
-                }
+                let words = Metamer::words(width, height, Recipe::default().levels);
+                Self::Metamer(vec![0; words], Box::default())
             }
         }
     }
 }
 
 impl Inpainter {
-    /// For maps over this grid.
+    /// Makes an inpainter for maps over this grid.
     #[must_use]
     pub fn new(grid: &Grid<'_>, inpaint: Inpaint) -> Self {
         let size = [grid.width(), grid.height()];
@@ -75,28 +43,28 @@ impl Inpainter {
     }
 
     /// Inpaints what the last step uncovered, which was made with `settings`.
-    pub fn paint<'p, F: Format>(&mut self, show: &mut impl Show<'p, F>, settings: &Settings) {
-        let depth_bits = u32::from(show.front().record().depth().bits);
+    pub fn paint<'p>(&mut self, maps: &mut impl Maps<'p>, settings: &Settings) {
+        let depth_bits = u32::from(maps.shown().record().depth().bits);
+        let gamma = self.inpaint.gamma;
         let inpainting = if self.inpaint.depth_aware {
-            let threshold = settings.edge_threshold >> depth_bits.saturating_sub(DEPTH_BITS);
-            let rule = Rule { gamma: self.inpaint.gamma, threshold };
-            Inpainting { rule, quads: true, mask: &self.mask }
+            Inpainting::for_edge_threshold(settings.edge_threshold, depth_bits, gamma)
         } else {
-            let classic = Inpainting::classic();
-            Inpainting { rule: Rule { gamma: self.inpaint.gamma, ..classic.rule }, mask: &self.mask, ..classic }
+            Inpainting { gamma, ..Inpainting::classic() }
         };
+        let inpainting = Inpainting { mask: &self.mask, ..inpainting };
+        let [width, height] = self.size;
         // Memory of the grid's size is long enough.
         match &mut self.memory {
-            Memory::PushPull { cells, states } => {
-                if let Ok(mut pyramid) = Pyramid::new(self.size[0], self.size[1], cells, states) {
-                    show.inpaint(settings, &inpainting, &mut pyramid);
+            Memory::PushPull(words) => {
+                if let Ok(mut push_pull) = PushPull::new(width, height, Motion::Inpainted, words) {
+                    maps.inpaint(settings, &inpainting, &mut push_pull);
                 }
             }
-            Memory::Metamer { recipe, tones, moments, states: [of_tones, of_moments], needs, workspace, noise } => {
-                let states: [&mut [u32]; 2] = [of_tones, of_moments];
-                let mut scratch = metamer::Scratch { tones, moments, states, needs, workspace, noise };
-                let done = show.synthesise(settings, &inpainting, recipe, &mut scratch);
-                debug_assert!(done.is_ok(), "{done:?}");
+            Memory::Metamer(words, workspace) => {
+                if let Ok(mut metamer) = Metamer::new(width, height, Recipe::default(), words, workspace) {
+                    let done = maps.synthesise(settings, &inpainting, &mut metamer);
+                    debug_assert!(done.is_ok(), "{done:?}");
+                }
             }
         }
     }
