@@ -125,4 +125,4 @@ pub use map::Galpixmap;
 pub use map::galpixel::{Class, Galpixel};
 pub use map::grid::{Grid, Margin};
 pub use maps::Maps;
-pub use objects::graft::{Grafted, graft};
+pub use objects::graft::{Delay, Grafted, graft};

@@ -17,7 +17,7 @@ use std::process::{Command, ExitCode, Stdio};
 
 use galpix_bench::pictures::Picture;
 use galpix_bench::{Full, Shaded, Velocity565, at_run_time, grid};
-use galpix_core::layers::{Layer, Layers, composite_words};
+use galpix_core::layers::{Layer, Layers, Stationary, composite_words};
 use galpix_core::stages;
 use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, Settings, Static, Tally};
 
@@ -91,7 +91,7 @@ impl Memory {
         let mut front = lay(front);
         picture.paint(&mut front);
         let layer = if stationary {
-            Layer::stationary(front, displacements, lay(back), lay(third), winners, seats)
+            Layer::stationary(Stationary { stored: front, displacements }, lay(back), lay(third), winners, seats)
         } else {
             Layer::new(front, lay(back), Scratch { winners, edges }, seats)
         };

@@ -44,7 +44,7 @@ fn enter<P: Profile + 'static>(contenders: &mut Vec<Contender>, layout: &str, si
         println!(
             "{group}: {} edges, {} without end; {:.2} % of the cells are covered, {:.2} % if surfaces are let through",
             tally.edges,
-            tally.endless,
+            tally.saturated,
             100.0 * f64::from(tally.covered) / cells as f64,
             100.0 * f64::from(through.covered) / cells as f64
         );

@@ -5,10 +5,10 @@
 
 use fixed::types::I32F32;
 use galpix_core::record::MAX_WORDS;
-use galpix_core::{Format, Galpixel, Galpixmap, Rounding, graft};
+use galpix_core::{Delay, Format, Galpixel, Galpixmap, Rounding, graft};
 use heapless::Vec;
 
-use crate::source::scene::{Body, Number, Scene};
+use crate::scene::{Body, Number, Scene};
 
 /// Frames from the begin of one update to the next. A power of two.
 pub const EVERY: u32 = 16;
@@ -71,7 +71,7 @@ impl Renderer {
                 });
                 let Some((model, colour)) = seen else { continue };
                 let words = map.recoloured(model.words, model.colours[colour & 1]);
-                graft(map, (x, y), &words, Rounding::LowDiscrepancy, now, now);
+                graft(map, (x, y), &words, Delay { stamp: now, now, rounding: Rounding::LowDiscrepancy });
             }
         }
     }

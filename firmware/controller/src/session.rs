@@ -4,7 +4,7 @@
 //! waits for the host: an update that is late, short, corrupt or never comes changes only what the picture shows.
 
 use galpix_core::scan_out::{PanelColour, View, row};
-use galpix_core::{Format, Settings, Tally, graft};
+use galpix_core::{Delay, Format as _, Maps, Settings, Tally, graft};
 use galpix_link::decode::Decoder;
 use galpix_link::frame::{Frame, Galpixels, MAX_ENCODED, NO_SCENE, Status};
 use galpix_link::panel::Description;
@@ -20,7 +20,7 @@ use crate::log;
 use crate::maps::Maps;
 use crate::overlay::Overlay;
 use crate::renderer::Renderer;
-use crate::source::scene;
+use crate::scene;
 
 /// The most bytes from the line that one frame takes: 921 600 baud at 60 frames a second. What comes faster waits.
 pub const BYTES_PER_FRAME: u32 = 1536;
@@ -260,7 +260,7 @@ fn take<'p, M: Maps<'p>>(
     }
     for galpixel in stored {
         let place = (i32::from(galpixel.x), i32::from(galpixel.y));
-        graft(maps.shown_mut(), place, &galpixel.words, settings.rounding, galpixels.stamp, now);
+        graft(map, place, &galpixel.words, Delay { stamp: galpixels.stamp, now, rounding: settings.rounding });
     }
     Ok(())
 }

@@ -192,7 +192,7 @@ fn proof_graft<F: Format>(
     rounding: Rounding,
     frame: u32,
 ) -> Grafted {
-    graft(map, place, words, rounding, frame, black_box(frame))
+    graft(map, place, words, Delay { stamp: frame, now: black_box(frame), rounding })
 }
 
 /// A row for a display of 16-bit words.

@@ -1,6 +1,6 @@
 //! What is handed over beside an update, and the memory that it takes as layers of the core.
 
-use galpix_core::layers::{Displacement, Layer, composite_words, displacement_word};
+use galpix_core::layers::{Displacement, Layer, Stationary, composite_words, displacement_word};
 use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
 
 use super::{LoadTally, load_at};
@@ -77,6 +77,7 @@ impl Memory {
         if stored.is_empty() {
             return Layer::new(front, back, Scratch { winners, edges }, seats);
         }
-        Layer::stationary(Galpixmap::new(grid, format, stored)?, displacements, front, back, winners, seats)
+        let stored = Galpixmap::new(grid, format, stored)?;
+        Layer::stationary(Stationary { stored, displacements }, front, back, winners, seats)
     }
 }

@@ -4,7 +4,7 @@
 
 use galpix_core::record::{MAX_WORDS, Record};
 use galpix_core::stages::{Candidate, NO_WINNER, clamp_velocity, nearer, snap, step_position, step_velocity};
-use galpix_core::{Class, Format, Galpixmap, Rounding, Tally, graft};
+use galpix_core::{Class, Delay, Format, Galpixmap, Rounding, Tally, graft};
 
 use crate::field::{Words, set, signed, unsigned};
 
@@ -71,7 +71,7 @@ pub fn settle<F: Format>(
         if let Some(Arrival { source, words, .. }) = nearest[cell as usize] {
             winners[cell as usize] = source;
             // Into an empty cell, and without a frame between: the words are put as they are.
-            graft(back, (x, y), &words, Rounding::Truncate, 0, 0);
+            graft(back, (x, y), &words, Delay { stamp: 0, now: 0, rounding: Rounding::Truncate });
         }
     }
     tally

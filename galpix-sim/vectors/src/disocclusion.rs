@@ -48,7 +48,7 @@ pub struct Uncovered {
 
 impl From<Tally> for Uncovered {
     fn from(tally: Tally) -> Self {
-        let Tally { edges, endless, covered } = tally;
+        let Tally { edges, saturated: endless, covered } = tally;
         Self { edges, endless, covered }
     }
 }

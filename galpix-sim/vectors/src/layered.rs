@@ -1,6 +1,6 @@
 //! Cases of layers: what they say, and the core run over their inputs.
 
-use galpix_core::layers::{self, Layer, composite_words, displacement_word};
+use galpix_core::layers::{self, Layer, Stationary, composite_words, displacement_word};
 use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -142,7 +142,13 @@ impl LayerMemory {
         let Self { maps: [first, second, third], winners, edges, seats, displacements } = self;
         let lay = |memory| Galpixmap::over(grid, format, memory);
         if stationary {
-            return Layer::stationary(lay(first)?, displacements, lay(second)?, lay(third)?, winners, seats);
+            return Layer::stationary(
+                Stationary { stored: lay(first)?, displacements },
+                lay(second)?,
+                lay(third)?,
+                winners,
+                seats,
+            );
         }
         Layer::new(lay(first)?, lay(second)?, Scratch { winners, edges }, seats)
     }

@@ -12,7 +12,7 @@ use galpix_controller::renderer::Renderer;
 use galpix_controller::scene;
 use galpix_core::inpaint::pyramid::{Cell, Pyramid};
 use galpix_core::scan_out::{PanelColour, row};
-use galpix_core::{Controller, Dynamic, Galpixmap, Grid, Margin, Scratch, Tally, graft, stages};
+use galpix_core::{Controller, Delay, Dynamic, Galpixmap, Grid, Margin, Scratch, Tally, graft, stages};
 use galpix_link::panel::{Lcd, Oled, Panel};
 use galpix_link::picture::PictureHash;
 use galpix_sim::picture::Picture;
@@ -93,7 +93,8 @@ fn of<P: Panel, C: PanelColour>(
             let galpixels = words.chunks_exact(P::RECORD.words());
             for (cell, galpixel) in (0..).zip(galpixels) {
                 let place = (cell % i32::from(P::WIDTH), cell / i32::from(P::WIDTH));
-                graft(controller.front_mut(), place, galpixel, P::SETTINGS.rounding, first, first);
+                let delay = Delay { stamp: first, now: first, rounding: P::SETTINGS.rounding };
+                graft(controller.front_mut(), place, galpixel, delay);
             }
             None
         }

@@ -1,7 +1,7 @@
 //! Grafting: a late update gives what one in time would have given.
 
 use fixed::types::I32F32;
-use galpix_core::{Class, Dynamic, FillMode, Format, Galpixel, Grafted, Layout, Rounding, Settings, graft};
+use galpix_core::{Class, Delay, Dynamic, FillMode, Format, Galpixel, Grafted, Layout, Rounding, Settings, graft};
 use galpix_tests::lent::{Shape, cell_words, with_controller, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
 use galpix_tests::stage::{self, number};
@@ -23,7 +23,7 @@ fn late_is_in_time(format: Dynamic, rounding: Rounding, late: u32) {
             for cell in (0..cells).rev() {
                 let place = (cell as i32 % columns, cell as i32 / columns);
                 let now = stamp.wrapping_add(late);
-                let grafted = graft(&mut map, place, &update(cell), rounding, stamp, now);
+                let grafted = graft(&mut map, place, &update(cell), Delay { stamp, now, rounding });
                 put += u32::from(matches!(grafted, Grafted::Put(_)));
             }
             assert!(put > 0);
@@ -69,7 +69,7 @@ fn the_newer_wins_and_among_its_own_the_nearer() {
         let [near, middle, far] = [0.25, 0.5, 0.75].map(|depth| words(depth, 5));
         let newer = words(0.75, 6);
         let mut put = |x: i32, y: i32, words: &[u32], stamp: u32, now: u32| {
-            let grafted = graft(&mut map, (x, y), words, Rounding::LowDiscrepancy, stamp, now);
+            let grafted = graft(&mut map, (x, y), words, Delay { stamp, now, rounding: Rounding::LowDiscrepancy });
             (grafted, cell_words(&map, 3))
         };
         // All three want cell 3: two frames late, from cell 1.
@@ -97,7 +97,7 @@ fn without_a_tag_the_last_one_wins() {
             cell_words(&map, 0)
         });
         for words in [&near, &far, &near, &near] {
-            assert_eq!(graft(&mut map, (0, 0), words, Rounding::Nearest, 4, 4), Grafted::Put(0));
+            assert_eq!(graft(&mut map, (0, 0), words, Delay { stamp: 4, now: 4, rounding: Rounding::Nearest }), Grafted::Put(0));
             assert_eq!(&cell_words(&map, 0), words);
         }
     });

@@ -22,8 +22,8 @@ use galpix_tests::profiles::{PAPER, SCENE, SLIDE, STRADDLING, UNEVEN, dynamic};
 use galpix_tests::random;
 use galpix_tests::stage::{self, Stage, settings_in_turn};
 
-use crate::study::layers::engine::with_layers;
-use crate::study::layers::model::Kind;
+use crate::layers::engine::with_layers;
+use crate::layers::model::Kind;
 
 const FRAMES: u32 = 8;
 

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use galpix_core::layers::{Layer, Layers, composite_words};
+use galpix_core::layers::{Layer, Layers, Stationary, composite_words};
 use galpix_core::objects::{Limits, Object, ObjectsTally, Places, Queue, Refusal, Refusals, replace};
 use galpix_core::{
     Class, Controller, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings,
@@ -363,7 +363,13 @@ fn an_object_that_is_covered_is_replaced_in_its_own_layer() {
     let [s1, s2, s3] = seats.as_mut_slice() else { unreachable!() };
     let base = Controller::new(map(m0), map(m1), Scratch { winners: &mut winners, edges: &mut edges }).unwrap();
     let moving = |front, back, seats| Layer::new(front, back, Scratch::default(), seats).unwrap();
-    let stationary = Layer::stationary(map(m6), &mut displacements, map(m7), map(m8), &mut [], s3);
+    let stationary = Layer::stationary(
+        Stationary { stored: map(m6), displacements: &mut displacements },
+        map(m7),
+        map(m8),
+        &mut [],
+        s3,
+    );
     let mut hidden = [moving(map(m2), map(m3), s1), moving(map(m4), map(m5), s2), stationary.unwrap()];
     let mut layers = Layers::new(base, &mut hidden).unwrap();
     let ball = |x: i32, shade: u8, speed: f64| Galpixel {

@@ -9,7 +9,7 @@ use galpix_core::{Controller, FillMode, Galpixmap, Grid, Profile, Scratch, Setti
 use crate::clock::Clock;
 use crate::inpainting::{Counts, Pyramids};
 use crate::pictures::Picture;
-use crate::output::html::{CONSTANT_TIME, Row, SKIPPING, print};
+use crate::report::{CONSTANT_TIME, Row, SKIPPING, print};
 
 /// Frames that a picture goes on for with skipping: counts are their means.
 const FRAMES: u32 = 4;

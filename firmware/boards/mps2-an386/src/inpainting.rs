@@ -13,7 +13,7 @@ use galpix_core::{Format, Galpixmap, Inpainting, Profile, Settings, Static};
 use crate::bench::Bench;
 use crate::clock::Clock;
 use crate::pictures::Picture;
-use crate::output::html::{Row, SKIPPING, print, print_hundredths};
+use crate::report::{Row, SKIPPING, print, print_hundredths};
 
 /// Memory of the pyramids, and of their states.
 pub struct Pyramids {

@@ -200,7 +200,7 @@ fn reference(front: &Galpixmap<'_, Dynamic>, reach: &Reach) -> (Vec<u32>, Tally)
                 }
                 let Some(by) = by else { continue };
                 tally.edges += 1;
-                tally.endless += u32::from(by.as_flattened().iter().any(|&extent| extent >= 127));
+                tally.saturated += u32::from(by.as_flattened().iter().any(|&extent| extent >= 127));
                 for (cell, by) in cells.into_iter().zip(by) {
                     let Some(cell) = cell else { continue };
                     for (to, extent) in extents[cell as usize].iter_mut().zip(by) {

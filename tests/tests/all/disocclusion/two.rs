@@ -118,7 +118,7 @@ fn check_scene(scene: &Scene, frames: u32, masks: impl Fn(u16) -> bool) -> Count
                     scene.near,
                     scene.far
                 );
-                assert_eq!((tally.endless, tally.covered), (0, covered.count_ones()));
+                assert_eq!((tally.saturated, tally.covered), (0, covered.count_ones()));
                 if border == Border::Continues {
                     count.maps += 1;
                     count.uncovered += u64::from(open.count_ones());

@@ -1,6 +1,6 @@
 //! The engine's layers with the memory that they are lent, beside the model of them.
 
-use galpix_core::layers::{Layer, Layers, composite_words, displacement_word};
+use galpix_core::layers::{Layer, Layers, Stationary, composite_words, displacement_word};
 use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, stages};
 use galpix_tests::lent::Shape;
 
@@ -50,7 +50,7 @@ pub fn with_layers<F: Format, R>(
     let mut hidden: Vec<_> = parts
         .map(|(kind, [front, back, third], scratch, seats, displacements)| {
             let layer = if kind.stationary {
-                Layer::stationary(front, displacements, back, third, scratch.winners, seats)
+                Layer::stationary(Stationary { stored: front, displacements }, back, third, scratch.winners, seats)
             } else {
                 Layer::new(front, back, scratch, seats)
             };

@@ -7,7 +7,7 @@ mod random;
 mod reference;
 
 use fixed::types::I32F32;
-use galpix_core::layers::{Layer, Layers, composite_words};
+use galpix_core::layers::{Layer, Layers, Stationary, composite_words};
 use galpix_core::{
     Bits, Class, Controller, Demand, Dynamic, Galpixel, Galpixmap, Grid, Layout, Margin, Scratch, Settings, stages,
 };
@@ -55,7 +55,13 @@ fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
         let scratch = Scratch { winners: &mut winners, edges: &mut edges };
         let base = Controller::new(map(m0), map(m1), scratch).expect("a base");
         let layer = if stationary {
-            Layer::stationary(map(m2), &mut displacements, map(m3), map(m4), &mut [], &mut seats)
+            Layer::stationary(
+                Stationary { stored: map(m2), displacements: &mut displacements },
+                map(m3),
+                map(m4),
+                &mut [],
+                &mut seats,
+            )
         } else {
             Layer::new(map(m2), map(m3), Scratch::default(), &mut seats)
         };
