@@ -6,21 +6,16 @@
 //! ```
 //!
 //! Each group has a plot of its times, `target/criterion/*/report/lines.svg`. Holes are strips at places that a counter
-//! gives, one to eight cells wide, as uncovered areas are. For ratios to a memory copy and to floats see
-//! `src/bin/inpaint.rs`.
+//! gives, one to eight cells wide, as uncovered areas are. The dense form is a reference inside the core and is not
+//! measured any more. For ratios to a memory copy and to floats see `src/bin/inpaint.rs`.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use galpix_bench::holes::{Holes, Picture, picture, strips};
-use galpix_core::Colour;
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::paint::Tint;
-use galpix_core::inpaint::picture::Masked;
-use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
-use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{self, Gamma, Motion, PushPull};
+use galpix_core::{Colour, Inpainting};
 
 const SIZES: [u32; 3] = [512, 1024, 2048];
 
@@ -31,36 +26,33 @@ const SHARES: [u32; 7] = [2, 10, 20, 50, 100, 200, 400];
 struct Filler {
     width: u32,
     height: u32,
-    cells: Vec<Cell<Tint>>,
-    states: Vec<u32>,
+    memory: Vec<u32>,
 }
 
 impl Filler {
     fn new(width: u32, height: u32) -> Self {
-        let cells = vec![Cell::default(); levels::cells(width, height)];
-        let states = vec![0; state_words(cells.len())];
-        Self { width, height, cells, states }
+        Self { width, height, memory: vec![0; PushPull::words(width, height, Motion::Kept)] }
     }
 
-    fn fill(&mut self, picture: &mut Picture, rule: &Rule, all: bool) {
+    fn fill(&mut self, picture: &mut Picture, inpainting: &Inpainting<'_>) {
         let (width, height) = (self.width, self.height);
-        let mut pyramid = Pyramid::new(width, height, &mut self.cells, &mut self.states).expect("memory enough");
-        let depths: &[u32] = if rule.threshold == u32::MAX { &[] } else { &picture.depths };
-        let mut masked = Masked::new(width, height, Colour::RGB888, &mut picture.colours, &picture.known, depths)
+        let mut push_pull = PushPull::new(width, height, Motion::Kept, &mut self.memory).expect("memory enough");
+        let mut holed = inpaint::Picture::new(width, height, Colour::RGB888, &mut picture.colours, &picture.known)
             .expect("slices long enough");
-        let fill = if all { dense } else { sparse };
-        black_box(fill(&mut masked, &mut pyramid, rule));
+        if inpainting.threshold != u32::MAX {
+            holed = holed.with_depths(&picture.depths).expect("slices long enough");
+        }
+        black_box(push_pull.fill_picture(&mut holed, inpainting));
     }
 }
 
-fn rules(threshold: u32) -> [(&'static str, Rule, bool); 5] {
-    let rule = |gamma, threshold| Rule { gamma, threshold };
+fn inpaintings(threshold: u32) -> [(&'static str, Inpainting<'static>); 4] {
+    let aware = |gamma| Inpainting { gamma, threshold, ..Inpainting::classic() };
     [
-        ("classic", rule(Gamma::Zero, u32::MAX), false),
-        ("classic-dense", rule(Gamma::Zero, u32::MAX), true),
-        ("depth-aware-gamma-0", rule(Gamma::Zero, threshold), false),
-        ("depth-aware-gamma-half", rule(Gamma::Half, threshold), false),
-        ("depth-aware-gamma-1", rule(Gamma::One, threshold), false),
+        ("classic", Inpainting::classic()),
+        ("depth-aware-gamma-0", aware(Gamma::Zero)),
+        ("depth-aware-gamma-half", aware(Gamma::Half)),
+        ("depth-aware-gamma-1", aware(Gamma::One)),
     ]
 }
 
@@ -71,8 +63,8 @@ fn sizes(criterion: &mut Criterion) {
         let mut filler = Filler::new(side, side);
         let mut group = criterion.benchmark_group(format!("size={side}"));
         group.throughput(Throughput::Elements(u64::from(side) * u64::from(side)));
-        for (name, rule, all) in rules(holed.threshold) {
-            group.bench_function(name, |bencher| bencher.iter(|| filler.fill(&mut holed, &rule, all)));
+        for (name, inpainting) in inpaintings(holed.threshold) {
+            group.bench_function(name, |bencher| bencher.iter(|| filler.fill(&mut holed, &inpainting)));
         }
         group.finish();
     }
@@ -85,9 +77,9 @@ fn shares(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("share");
     for share in SHARES {
         let mut holed = strips(SIDE, SIDE, share);
-        for (name, rule, all) in rules(holed.threshold) {
+        for (name, inpainting) in inpaintings(holed.threshold) {
             group.bench_with_input(BenchmarkId::new(name, share), &share, |bencher, _| {
-                bencher.iter(|| filler.fill(&mut holed, &rule, all));
+                bencher.iter(|| filler.fill(&mut holed, &inpainting));
             });
         }
     }

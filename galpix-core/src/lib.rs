@@ -88,6 +88,7 @@ pub mod stages {
     pub use crate::frame::fill::{FILLED, fill};
     pub use crate::frame::resolve::{Candidate, NO_WINNER, nearer, sweep};
     pub use crate::frame::step::{clamp_velocity, snap, step_position, step_velocity};
+    pub use crate::inpaint::lay_background;
 }
 
 /// Rows of colour for a display.

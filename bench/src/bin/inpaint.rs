@@ -9,6 +9,9 @@
 //! when bullet holes are filled; `map` are these in a galpixmap, with the motion of what is filled, by push-pull with
 //! quads unless it is said, and by metamers. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the
 //! columns mean is said in `race.rs`.
+//!
+//! Ours works out what the holes need, the textbook's all cells. The dense form of ours is a reference inside the core
+//! and has no rows here any more.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -20,18 +23,7 @@ use galpix_bench::race::{Contender, arguments, race, table};
 use galpix_bench::scene::{Motion, samples};
 use galpix_bench::textbook::{Pixel, Textbook};
 use galpix_bench::{Full, Maps};
-use galpix_core::inpaint::features::Workspace;
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::metamer::{self, Recipe};
-use galpix_core::inpaint::needs;
-use galpix_core::inpaint::noise;
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::picture::Masked;
-use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
-use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
-use galpix_core::inpaint::statistics::Moments;
-use galpix_core::inpaint::tone::Tone;
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{self, Gamma, Metamer, MetamerWorkspace, PushPull, Recipe};
 use galpix_core::{Colour, Controller, Inpainting, Settings, Static};
 
 /// What others are compared with.
@@ -66,12 +58,10 @@ fn compare((width, height): (u32, u32), rounds: usize) {
             [(Gamma::Zero, u32::MAX), (Gamma::Zero, depth_aware), (Gamma::Half, depth_aware), (Gamma::One, depth_aware)]
         {
             let aware = if threshold == u32::MAX { "" } else { ", depth-aware" };
-            for (arrangement, is_dense) in [("sparse", false), ("dense", true)] {
-                let what = format!("push-pull, gamma {}{aware}, {arrangement}", gamma.name());
-                let run = ours(&picture, (width, height), Rule { gamma, threshold }, is_dense);
-                let bytes = COPIED * cells as usize;
-                contenders.push(Contender::new(what, holes.name(), bytes, Box::new(|| {}), run));
-            }
+            let what = format!("push-pull, gamma {}{aware}", gamma.name());
+            let run = ours(&picture, (width, height), Inpainting { gamma, threshold, ..Inpainting::classic() });
+            let bytes = COPIED * cells as usize;
+            contenders.push(Contender::new(what, holes.name(), bytes, Box::new(|| {}), run));
         }
     }
     contenders.extend(on_a_map((width, height)));
@@ -80,19 +70,18 @@ fn compare((width, height): (u32, u32), rounds: usize) {
     table(&contenders, cells, TEXTBOOK);
 }
 
-fn ours(picture: &Rc<Picture>, (width, height): (u32, u32), rule: Rule, is_dense: bool) -> Box<dyn FnMut()> {
+fn ours(picture: &Rc<Picture>, (width, height): (u32, u32), inpainting: Inpainting<'static>) -> Box<dyn FnMut()> {
     let picture = Rc::clone(picture);
-    let colours = Rc::new(RefCell::new(picture.colours.clone()));
-    let mut memory = vec![Cell::<Tint>::default(); levels::cells(width, height)];
-    let mut states = vec![0; state_words(memory.len())];
+    let mut colours = picture.colours.clone();
+    let mut memory = vec![0; PushPull::words(width, height, inpaint::Motion::Kept)];
     Box::new(move || {
-        let mut colours = colours.borrow_mut();
-        let depths: &[u32] = if rule.threshold == u32::MAX { &[] } else { &picture.depths };
-        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).expect("memory enough");
-        let mut masked = Masked::new(width, height, Colour::RGB888, &mut colours, &picture.known, depths)
+        let mut push_pull = PushPull::new(width, height, inpaint::Motion::Kept, &mut memory).expect("memory enough");
+        let mut holed = inpaint::Picture::new(width, height, Colour::RGB888, &mut colours, &picture.known)
             .expect("slices long enough");
-        let fill = if is_dense { dense } else { sparse };
-        black_box(fill(&mut masked, &mut pyramid, &rule));
+        if inpainting.threshold != u32::MAX {
+            holed = holed.with_depths(&picture.depths).expect("slices long enough");
+        }
+        black_box(push_pull.fill_picture(&mut holed, &inpainting));
     })
 }
 
@@ -123,12 +112,12 @@ fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
     .into_iter()
     .map(|(name, inpainting)| {
         let controller = Rc::clone(&controller);
-        let mut memory = vec![Cell::<Moving>::default(); levels::cells(width, height)];
-        let mut states = vec![0; state_words(memory.len())];
+        let mut memory = vec![0; PushPull::words(width, height, inpaint::Motion::Inpainted)];
         // What is uncovered stays so: the stage can be repeated.
         let run = move || {
-            let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).expect("memory enough");
-            black_box(controller.borrow_mut().inpaint(&settings, &inpainting, &mut pyramid));
+            let mut push_pull =
+                PushPull::new(width, height, inpaint::Motion::Inpainted, &mut memory).expect("memory enough");
+            black_box(controller.borrow_mut().inpaint(&settings, &inpainting, &mut push_pull));
         };
         Contender::new(name, "map", bytes, Box::new(|| {}), Box::new(run))
     })
@@ -144,25 +133,15 @@ fn metamers((width, height): (u32, u32)) -> Vec<Contender> {
         .into_iter()
         .map(|(gamma, levels)| {
             let controller = Rc::clone(&controller);
-            let count = levels::cells(width, height);
-            let mut tones = vec![Cell::<Tone>::default(); count];
-            let mut moments = vec![Cell::<Moments>::default(); count];
-            let (mut of_tones, mut of_moments) = (vec![0; state_words(count)], vec![0; state_words(count)]);
-            let mut needed = vec![needs::Tile::default(); needs::tiles(width, height, levels)];
-            let (mut workspace, mut noise) = (Box::new(Workspace::new()), Box::<noise::Tiles>::default());
+            let mut memory = vec![0; Metamer::words(width, height, levels)];
+            let mut workspace = Box::new(MetamerWorkspace::new());
             let inpainting = Inpainting::for_depth(depth_bits, gamma);
-            let recipe = Recipe { levels, ..Recipe::new(0, 0) };
+            let recipe = Recipe { levels, ..Recipe::default() };
             let run = move || {
-                let mut scratch = metamer::Scratch {
-                    tones: &mut tones,
-                    moments: &mut moments,
-                    states: [&mut of_tones, &mut of_moments],
-                    needs: &mut needed,
-                    workspace: &mut workspace,
-                    noise: &mut noise,
-                };
+                let mut metamer =
+                    Metamer::new(width, height, recipe, &mut memory, &mut workspace).expect("memory enough");
                 let mut controller = controller.borrow_mut();
-                black_box(controller.synthesise(&settings, &inpainting, &recipe, &mut scratch)).expect("memory enough");
+                black_box(controller.synthesise(&settings, &inpainting, &mut metamer)).expect("memory enough");
             };
             let what = format!("metamers, gamma {}, {levels} levels", gamma.name());
             Contender::new(what, "map", bytes, Box::new(|| {}), Box::new(run))

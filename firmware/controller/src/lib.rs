@@ -7,8 +7,7 @@
 //!
 //! - [`board`]: the seam, what a board gives
 //! - [`session`]: a frame at every vsync, and what the host says between them
-//! - [`maps`]: two maps that take turns, or one and a rolling window; [`inpainted`] ones, whose frames are followed by
-//!   push-pull
+//! - [`inpainted`]: maps whose frames are followed by push-pull
 //! - [`renderer`], [`scene`]: built-in scenes, evaluated in fixed point, that deliver updates row by row
 //! - [`overlay`]: a line of text over the picture
 //! - [`log`]: what is said with the feature `defmt`
@@ -20,7 +19,6 @@
 pub mod board;
 pub mod inpainted;
 pub mod log;
-pub mod maps;
 pub mod overlay;
 pub mod renderer;
 pub mod scene;

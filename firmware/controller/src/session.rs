@@ -4,7 +4,7 @@
 //! waits for the host: an update that is late, short, corrupt or never comes changes only what the picture shows.
 
 use galpix_core::scan_out::{PanelColour, View, row};
-use galpix_core::{Delay, Format as _, Maps, Settings, Tally, graft};
+use galpix_core::{Delay, Format, Maps, Settings, Tally, graft};
 use galpix_link::decode::Decoder;
 use galpix_link::frame::{Frame, Galpixels, MAX_ENCODED, NO_SCENE, Status};
 use galpix_link::panel::Description;
@@ -17,7 +17,6 @@ use embedded_graphics::image::Image;
 
 use crate::board::Board;
 use crate::log;
-use crate::maps::Maps;
 use crate::overlay::Overlay;
 use crate::renderer::Renderer;
 use crate::scene;
@@ -100,9 +99,9 @@ where
     pub fn frame(&mut self) {
         let begin = self.board.ticks();
         self.listen(BYTES_PER_FRAME);
-        if let Some(renderer) = self.renderer {
-            let now = self.maps.frame();
-            renderer.next(self.maps.shown_mut(), now);
+        let now = self.maps.frame();
+        if let (Some(renderer), Some(map)) = (self.renderer, self.maps.layer_mut(0)) {
+            renderer.next(map, now);
         }
         self.tally = self.maps.step(&self.settings);
         let made = self.board.ticks();
@@ -210,7 +209,7 @@ where
     /// Begins a scene, or an empty map; whether there is such a scene.
     fn choose(&mut self, number: u8) -> bool {
         let now = self.maps.frame();
-        let map = self.maps.shown_mut();
+        let Some(map) = self.maps.layer_mut(0) else { return false };
         match scene::ALL.get(usize::from(number)) {
             Some(scene) => {
                 let renderer = Renderer::new(scene, now);
@@ -258,9 +257,11 @@ fn take<'p, M: Maps<'p>>(
     if galpixels.age(now) > OLDEST {
         return Err(Rejected::TooOld);
     }
+    let Some(map) = maps.layer_mut(0) else { return Ok(()) };
+    let delay = Delay { stamp: galpixels.stamp, now, rounding: settings.rounding };
     for galpixel in stored {
         let place = (i32::from(galpixel.x), i32::from(galpixel.y));
-        graft(map, place, &galpixel.words, Delay { stamp: galpixels.stamp, now, rounding: settings.rounding });
+        graft(map, place, &galpixel.words, delay);
     }
     Ok(())
 }

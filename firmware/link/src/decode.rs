@@ -3,8 +3,9 @@
 use cobs::{DecodeResult, DecoderState};
 
 use crate::CRC;
-use crate::frame::{CHECKSUM, Frame, MAX_PAYLOAD};
+use crate::frame::Frame;
 use crate::rejected::Rejected;
+use crate::size::{CHECKSUM, MAX_PAYLOAD};
 
 /// A receiver. Takes bytes one at a time and never loses step for longer than to the next 0.
 #[derive(Debug)]

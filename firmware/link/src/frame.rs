@@ -9,19 +9,11 @@ use galpix_core::record::MAX_WORDS;
 use crate::CRC;
 use crate::panel::Description;
 use crate::rejected::{CAUSES, Rejected, Rejections};
+use crate::size::CHECKSUM;
+pub use crate::size::{MAX_ENCODED, MAX_PAYLOAD, MAX_WORD_BYTES};
 
-/// The most bytes of a payload.
-pub const MAX_PAYLOAD: usize = 240;
 /// In [`Frame::Scene`]: an empty map, in which only what the host sends is seen.
 pub const NO_SCENE: u8 = 0xff;
-/// Bytes of a checksum.
-pub(crate) const CHECKSUM: usize = 4;
-/// The most bytes of a frame on the line, its 0 included. Below 254 bytes COBS adds a single one.
-pub const MAX_ENCODED: usize = 1 + MAX_PAYLOAD + CHECKSUM + 1;
-/// Bytes of a frame of galpixels before the words.
-const GALPIXELS_HEAD: usize = 15;
-/// The most bytes of stored words in one frame: whole words.
-pub const MAX_WORD_BYTES: usize = (MAX_PAYLOAD - GALPIXELS_HEAD) / 4 * 4;
 
 /// The first byte of each kind. Those of the device have the top bit set.
 mod kind {

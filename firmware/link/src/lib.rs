@@ -36,6 +36,7 @@ pub mod frame;
 pub mod panel;
 pub mod picture;
 pub mod rejected;
+mod size;
 
 /// The checksum of frames, fingerprints and pictures: CRC-32/ISO-HDLC, as in Ethernet and zip.
 static CRC: crc::Crc<u32> = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);

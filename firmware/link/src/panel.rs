@@ -1,14 +1,11 @@
 //! The displays that both ends know: their sizes, and how their galpixels are stored.
 
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::pyramid::state_words;
-use galpix_core::inpaint::validity::Gamma;
-use galpix_core::inpaint::{levels, map};
+use galpix_core::inpaint::{Gamma, Inpainting, Motion, PushPull};
 use galpix_core::record::{Component, Field, Scale};
-use galpix_core::{Bits, BudgetError, Colour, Demand, Inpainting, Layout, Profile, Record, Settings, Static};
+use galpix_core::{Bits, BudgetError, Colour, Demand, Layout, Profile, Record, Settings, Static};
 
 use crate::CRC;
-use crate::frame::MAX_WORD_BYTES;
+use crate::size::MAX_WORD_BYTES;
 
 /// The version of the frames. It enters every fingerprint, so that ends of different versions refuse each other's
 /// galpixels.
@@ -32,15 +29,12 @@ pub trait Panel: Profile + Sized {
     /// Whether its frames tell surfaces apart, with a winner map and an edge map. Without them no hole is a bullet
     /// hole: all continue what is beside them.
     const TELLS_SURFACES: bool;
-    /// What push-pull fills in after a frame.
-    type Filling: map::Filling;
+    /// What push-pull makes of the motion of what it fills in after a frame.
+    const MOTION: Motion;
     /// How.
     const INPAINTING: Inpainting<'static> = Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero);
-    /// Cells of the pyramid for it, and the words of their states.
-    const PYRAMID: (usize, usize) = {
-        let cells = levels::cells(Self::WIDTH as u32, Self::HEIGHT as u32);
-        (cells, state_words(cells))
-    };
+    /// Words of memory that it needs.
+    const PUSH_PULL_WORDS: usize = PushPull::words(Self::WIDTH as u32, Self::HEIGHT as u32, Self::MOTION);
     /// Words of memory for one map.
     const MAP_WORDS: usize = Self::CELLS * Self::RECORD.words();
     /// The display as a value.
@@ -219,7 +213,7 @@ impl Panel for Oled {
     /// No: that would take 4.5 KiB, and a quarter of the work of a frame.
     const TELLS_SURFACES: bool = false;
     /// The colour only: the motion stays the one that the ladder gave. In one map no map before is left for quads.
-    type Filling = Tint;
+    const MOTION: Motion = Motion::Kept;
     const INPAINTING: Inpainting<'static> =
         Inpainting { quads: false, ..Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero) };
 }
@@ -242,7 +236,7 @@ impl Panel for Lcd {
     const WIDTH: u16 = 320;
     const HEIGHT: u16 = 240;
     const TELLS_SURFACES: bool = true;
-    type Filling = Moving;
+    const MOTION: Motion = Motion::Inpainted;
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);

@@ -21,9 +21,7 @@ mod planted;
 
 use core::hint::black_box;
 
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::pyramid::Cell;
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{Gamma, Motion, PushPull};
 use galpix_core::{Bits, Demand, Galpixel, Inpainting, Layout, Margin, Profile, Settings};
 
 /// A panel of up to 512 pixels a side.
@@ -63,17 +61,15 @@ struct Inputs<'m> {
     scratch: [&'m mut [u32]; 2],
     line: &'m mut [u16],
     inpainting: Inpainting<'m>,
-    moving: &'m mut [Cell<Moving>],
-    tints: &'m mut [Cell<Tint>],
-    states: &'m mut [u32],
+    motion: Motion,
+    push_pull: &'m mut [u32],
 }
 
 /// Calls everything.
 fn run() {
     let (mut rows, mut window_rows, mut front, mut back) = ([0; 8], [0; 8], [0; 512], [0; 512]);
     let (mut winners, mut edges, mut line) = ([0; 64], [0; 2], [0; 8]);
-    let (mut moving, mut tints, mut states, mask) =
-        ([Cell::default(); 21], [Cell::default(); 21], [0; 2], [u32::MAX; 2]);
+    let (mut push_pull, mask) = ([0; PushPull::words(8, 8, Motion::Inpainted)], [u32::MAX; 2]);
     let mut inputs = black_box(Inputs {
         size: [8, 8],
         margin: Margin::NONE,
@@ -87,9 +83,8 @@ fn run() {
         scratch: [&mut winners, &mut edges],
         line: &mut line,
         inpainting: Inpainting { mask: &mask, ..Inpainting::for_depth(16, Gamma::Half) },
-        moving: &mut moving,
-        tints: &mut tints,
-        states: &mut states,
+        motion: Motion::Inpainted,
+        push_pull: &mut push_pull,
     });
     passes::call_all::<VelocityGray4>(&mut inputs);
     passes::call_all::<Velocity565>(&mut inputs);

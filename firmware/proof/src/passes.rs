@@ -3,10 +3,7 @@
 
 use core::hint::black_box;
 
-use galpix_core::inpaint::map::Uncovered;
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::push_pull::dense;
-use galpix_core::inpaint::pyramid::Pyramid;
+use galpix_core::inpaint::PushPull;
 use galpix_core::rolling::Rolling;
 use galpix_core::{
     Controller, Format, Galpixel, Galpixmap, Grafted, Grid, Inpainting, Profile, Rounding, Scratch, Settings, Static,
@@ -35,8 +32,8 @@ fn with_two_maps<P: Profile>(inputs: &mut Inputs<'_>) {
         scratch,
         line,
         inpainting,
-        moving,
-        states,
+        motion,
+        push_pull,
         ..
     } = black_box(inputs);
     let ([front, back], [winners, edges], [x, y]) = (maps, scratch, *place);
@@ -57,9 +54,8 @@ fn with_two_maps<P: Profile>(inputs: &mut Inputs<'_>) {
     controller.set_frame(*frame);
     black_box(proof_step(&mut controller, settings));
     black_box(proof_step_constant_time(&mut controller, settings));
-    if let Ok(mut pyramid) = Pyramid::new(size[0], size[1], moving, states) {
-        black_box(proof_inpaint_controller(&mut controller, settings, inpainting, &mut pyramid));
-        black_box(proof_inpaint_dense(controller.front_mut(), inpainting, &mut pyramid));
+    if let Ok(mut push_pull) = PushPull::new(size[0], size[1], *motion, push_pull) {
+        black_box(proof_inpaint_controller(&mut controller, settings, inpainting, &mut push_pull));
     }
     proof_scan_out(controller.front(), *frame, line);
     black_box(&line);
@@ -77,8 +73,8 @@ fn with_one_map<P: Profile>(inputs: &mut Inputs<'_>) {
         maps,
         scratch,
         inpainting,
-        tints,
-        states,
+        motion,
+        push_pull,
         ..
     } = black_box(inputs);
     let ([map, window], [winners, edges]) = (maps, scratch);
@@ -89,8 +85,8 @@ fn with_one_map<P: Profile>(inputs: &mut Inputs<'_>) {
     let Ok(window) = Galpixmap::over(rolls, format, window) else { return };
     let Ok(mut rolling) = Rolling::new(map, window, Scratch { winners, edges }) else { return };
     black_box(proof_rolling(&mut rolling, settings));
-    if let Ok(mut pyramid) = Pyramid::new(size[0], size[1], tints, states) {
-        black_box(proof_inpaint_rolling(&mut rolling, inpainting, &mut pyramid));
+    if let Ok(mut push_pull) = PushPull::new(size[0], size[1], *motion, push_pull) {
+        black_box(proof_inpaint_rolling(&mut rolling, inpainting, &mut push_pull));
     }
     let rounding = settings.rounding;
     black_box(proof_graft(rolling.map_mut(), (place[0], place[1]), black_box(&[0; 8]), rounding, *frame));
@@ -153,35 +149,25 @@ fn proof_rolling<F: Format>(rolling: &mut Rolling<'_, F>, settings: &Settings) -
     rolling.step(settings)
 }
 
-/// Quads and push-pull of colours with their motion.
+/// Quads and push-pull, of colours and of colours with their motion.
 #[inline(never)]
 fn proof_inpaint_controller<F: Format>(
     controller: &mut Controller<'_, F>,
     settings: &Settings,
     inpainting: &Inpainting<'_>,
-    pyramid: &mut Pyramid<'_, Moving>,
+    push_pull: &mut PushPull<'_>,
 ) -> u32 {
-    controller.inpaint(settings, inpainting, pyramid)
+    controller.inpaint(settings, inpainting, push_pull)
 }
 
-/// Push-pull that completes every cell.
-#[inline(never)]
-fn proof_inpaint_dense<F: Format>(
-    map: &mut Galpixmap<'_, F>,
-    inpainting: &Inpainting<'_>,
-    pyramid: &mut Pyramid<'_, Moving>,
-) -> u32 {
-    dense(&mut Uncovered::<F, Moving>::new(map, inpainting.mask), pyramid, &inpainting.rule)
-}
-
-/// Push-pull in one map, of colours.
+/// Push-pull in one map.
 #[inline(never)]
 fn proof_inpaint_rolling<F: Format>(
     rolling: &mut Rolling<'_, F>,
     inpainting: &Inpainting<'_>,
-    pyramid: &mut Pyramid<'_, Tint>,
+    push_pull: &mut PushPull<'_>,
 ) -> u32 {
-    rolling.inpaint(inpainting, pyramid)
+    rolling.inpaint(inpainting, push_pull)
 }
 
 #[inline(never)]

@@ -53,3 +53,21 @@ pub use picture::Picture;
 pub use push_pull::{Motion, PushPull};
 pub use settings::Inpainting;
 pub use validity::Gamma;
+
+use crate::format::Format;
+use crate::format::rounding::Rounding;
+use crate::map::Galpixmap;
+
+/// Gives the holes of `map` the depth of the background, from stretched quads of the map `before`; returns how often one got
+/// deeper. It is what [`crate::Controller::inpaint`] begins with.
+///
+/// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
+pub fn lay_background<F: Format>(
+    before: &Galpixmap<'_, F>,
+    map: &mut Galpixmap<'_, F>,
+    edges: &[u32],
+    rounding: Rounding,
+    frame: u32,
+) -> u32 {
+    F::lay_background(before, map, edges, rounding, frame)
+}

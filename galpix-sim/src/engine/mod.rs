@@ -11,7 +11,9 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::overlay::{self, Overlay};
-use galpix_core::{BudgetError, Dynamic, Galpixmap, Grid, Margin, Settings, SetupError, Tally, scan_out};
+use galpix_core::{
+    BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally, scan_out,
+};
 
 pub use layer::Beside;
 pub use load::{LoadTally, galpixel, load};

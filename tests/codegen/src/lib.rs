@@ -8,10 +8,7 @@
 #![no_std]
 
 use galpix_core::disocclusion::{self, Reach};
-use galpix_core::inpaint::map::Uncovered;
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::push_pull::dense;
-use galpix_core::inpaint::pyramid::Pyramid;
+use galpix_core::inpaint::PushPull;
 use galpix_core::layers::Layers;
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
@@ -92,27 +89,25 @@ macro_rules! passes {
                 controller.step_constant_time(settings)
             }
 
-            /// Quads and push-pull, sparse and dense, of colours with their motion.
+            /// Quads and push-pull, of colours and of colours with their motion.
             #[unsafe(export_name = concat!("proof_inpaint_", stringify!($name)))]
             pub fn inpaint(
                 controller: &mut Controller<'_, Format>,
                 settings: &Settings,
                 inpainting: &Inpainting<'_>,
-                pyramid: &mut Pyramid<'_, Moving>,
+                push_pull: &mut PushPull<'_>,
             ) -> u32 {
-                let holes = controller.inpaint(settings, inpainting, pyramid);
-                let mut picture = Uncovered::<_, Moving>::new(controller.front_mut(), inpainting.mask);
-                holes.wrapping_add(dense(&mut picture, pyramid, &inpainting.rule))
+                controller.inpaint(settings, inpainting, push_pull)
             }
 
-            /// Push-pull in one map, of colours.
+            /// Push-pull in one map.
             #[unsafe(export_name = concat!("proof_inpaint_rolling_", stringify!($name)))]
             pub fn inpaint_rolling(
                 rolling: &mut Rolling<'_, Format>,
                 inpainting: &Inpainting<'_>,
-                pyramid: &mut Pyramid<'_, Tint>,
+                push_pull: &mut PushPull<'_>,
             ) -> u32 {
-                rolling.inpaint(inpainting, pyramid)
+                rolling.inpaint(inpainting, push_pull)
             }
 
             /// The disocclusion map, marked and spread in raster order.

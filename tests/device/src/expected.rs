@@ -10,7 +10,7 @@ use embedded_graphics::pixelcolor::{Gray4, Rgb565};
 use galpix_controller::overlay::Overlay;
 use galpix_controller::renderer::Renderer;
 use galpix_controller::scene;
-use galpix_core::inpaint::pyramid::{Cell, Pyramid};
+use galpix_core::inpaint::PushPull;
 use galpix_core::scan_out::{PanelColour, row};
 use galpix_core::{Controller, Delay, Dynamic, Galpixmap, Grid, Margin, Scratch, Tally, graft, stages};
 use galpix_link::panel::{Lcd, Oled, Panel};
@@ -76,9 +76,9 @@ fn of<P: Panel, C: PanelColour>(
     )
     .map_err(|error| failed(&error))?;
     controller.set_frame(first);
-    let (mut cells, mut states) = (vec![Cell::<P::Filling>::default(); P::PYRAMID.0], vec![0; P::PYRAMID.1]);
-    let mut pyramid =
-        Pyramid::new(P::WIDTH.into(), P::HEIGHT.into(), &mut cells, &mut states).map_err(|error| failed(&error))?;
+    let mut memory = vec![0; P::PUSH_PULL_WORDS];
+    let mut push_pull =
+        PushPull::new(P::WIDTH.into(), P::HEIGHT.into(), P::MOTION, &mut memory).map_err(|error| failed(&error))?;
 
     let renderer = match shows {
         Shows::Scene(number) => {
@@ -107,7 +107,7 @@ fn of<P: Panel, C: PanelColour>(
         }
         let tally = controller.step(&P::SETTINGS);
         if filling == Filling::PushPull {
-            controller.inpaint(&P::SETTINGS, &P::INPAINTING, &mut pyramid);
+            controller.inpaint(&P::SETTINGS, &P::INPAINTING, &mut push_pull);
         }
         made.push(expected::<P, C>(board, &controller, &tally, overlay));
     }

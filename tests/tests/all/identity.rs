@@ -3,10 +3,7 @@
 
 use fixed::types::I32F32;
 use galpix_core::disocclusion::{self, Reach};
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::paint::Moving;
-use galpix_core::inpaint::pyramid::{Cell, Pyramid, state_words};
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{Gamma, Motion, PushPull};
 use galpix_core::objects::{Object, ObjectsTally, replace};
 use galpix_core::{
     Bits, Class, Dynamic, Format, Galpixel, Inpainting, Layout, Profile, Rounding, Settings, Static, Tally, stages,
@@ -142,14 +139,13 @@ fn layered<F: Format>(
 
 fn inpainted<F: Format>(format: F, shape: Shape, content: &[u32], settings: &Settings) -> Vec<(u32, Vec<u32>)> {
     let (columns, rows) = (shape.columns(), shape.rows());
-    let mut memory = vec![Cell::<Moving>::default(); levels::cells(columns, rows)];
-    let mut states = vec![0; state_words(memory.len())];
-    let mut pyramid = Pyramid::new(columns, rows, &mut memory, &mut states).unwrap();
+    let mut memory = vec![0; PushPull::words(columns, rows, Motion::Inpainted)];
+    let mut push_pull = PushPull::new(columns, rows, Motion::Inpainted, &mut memory).unwrap();
     let inpainting = Inpainting::for_depth(format.record().depth().bits.into(), Gamma::Half);
     with_controller(shape, format, Some(content), |controller| {
         let frame = |_| {
             controller.step(settings);
-            (controller.inpaint(settings, &inpainting, &mut pyramid), words(controller.front()))
+            (controller.inpaint(settings, &inpainting, &mut push_pull), words(controller.front()))
         };
         (0..FRAMES).map(frame).collect()
     })

@@ -11,11 +11,11 @@ mod clock;
 mod end;
 mod memory;
 mod panel;
-mod push_pull;
 mod ssi;
 mod uart;
 
 use galpix_controller::board::Board;
+use galpix_controller::inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::rolling::Rolling;
 use galpix_core::{Galpixmap, Grid, Margin, Scratch, SetupError, Static};
@@ -91,7 +91,7 @@ fn main() -> ! {
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };
     let Ok(rolling) = rolling(lent.map, lent.window, lent.starts, lent.turns) else { end::fail() };
-    let Ok(maps) = push_pull::inpainted(rolling) else { end::fail() };
+    let Ok(maps) = inpainted::of_panel::<Display, _>(rolling, lent.push_pull) else { end::fail() };
     Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 

@@ -1,29 +1,14 @@
-//! Push-pull after a frame: stretched quads, then sparse and dense, for colours and for colours with their motion.
+//! Push-pull after a frame: stretched quads, then colours, then colours with their motion.
 
 use core::hint::black_box;
 
-use galpix_core::inpaint::map::{OfGalpixel, Uncovered};
-use galpix_core::inpaint::paint::{Moving, Tint};
-use galpix_core::inpaint::push_pull::{Rule, dense, sparse};
-use galpix_core::inpaint::pyramid::{Cell, Pyramid};
-use galpix_core::inpaint::quads::lay_background;
-use galpix_core::inpaint::validity::Gamma;
-use galpix_core::{Format, Galpixmap, Inpainting, Profile, Settings, Static};
+use galpix_core::inpaint::{Gamma, Motion, PushPull};
+use galpix_core::stages::lay_background;
+use galpix_core::{Controller, Galpixmap, Inpainting, Profile, Scratch, Settings, Static};
 
 use crate::bench::Bench;
-use crate::clock::Clock;
 use crate::pictures::Picture;
 use crate::report::{Row, SKIPPING, print, print_hundredths};
-
-/// Memory of the pyramids, and of their states.
-pub struct Pyramids {
-    /// For colours.
-    pub tints: &'static mut [Cell<Tint>],
-    /// For colours and motion.
-    pub moving: &'static mut [Cell<Moving>],
-    /// For either.
-    pub states: &'static mut [u32],
-}
 
 /// Ticks and holes over some frames.
 #[derive(Default)]
@@ -33,59 +18,39 @@ pub struct Counts {
     quads: u64,
     moving: u64,
     colours: u64,
-    dense: u64,
-}
-
-/// Which cells of a pyramid push-pull completes.
-enum Arrangement {
-    /// Those that some hole needs.
-    Sparse,
-    /// All.
-    Dense,
-}
-
-/// Times one arrangement of push-pull.
-fn filled<F: Format, V: OfGalpixel>(
-    clock: Clock,
-    map: &mut Galpixmap<'_, F>,
-    (cells, states): (&mut [Cell<V>], &mut [u32]),
-    rule: &Rule,
-    arrangement: Arrangement,
-) -> (u64, u32) {
-    let [width, height] = [map.grid().width(), map.grid().height()];
-    let mut pyramid = Pyramid::new(width, height, cells, states).expect("memory enough");
-    let mut picture = Uncovered::<F, V>::new(map, &[]);
-    let rule = black_box(rule);
-    match arrangement {
-        Arrangement::Sparse => clock.time(|| sparse(&mut picture, &mut pyramid, rule)),
-        Arrangement::Dense => clock.time(|| dense(&mut picture, &mut pyramid, rule)),
-    }
 }
 
 impl Bench {
     /// Inpaints the second map and leaves it as it was: with quads, if it is the frame after the first one.
     pub fn inpaint<P: Profile>(&mut self, frame: Option<u32>, words: usize, counts: &mut Counts) {
-        let Self { clock, grid, maps: [front, back], scratch, swept: [kept, _], pyramids, .. } = self;
+        let Self { clock, grid, maps: [front, back], scratch, swept: [kept, _], push_pull: memory, .. } = self;
         let (clock, format) = (*clock, Static::<P>::new());
         kept[..words].copy_from_slice(&back[..words]);
         {
             let front = Galpixmap::over(*grid, format, front).expect("memory enough");
             let mut map = Galpixmap::over(*grid, format, back).expect("memory enough");
             let bits = map.record().depth().bits.into();
-            let (settings, rule) = (Settings::for_depth(bits), Inpainting::for_depth(bits, Gamma::Zero).rule);
+            let settings = Settings::for_depth(bits);
             if let Some(frame) = frame {
                 let (rounding, frame) = (black_box(settings.rounding), black_box(frame));
                 counts.quads += clock.time(|| lay_background(&front, &mut map, scratch.edges, rounding, frame)).0;
             }
-            let Pyramids { tints, moving, states } = pyramids;
-            // What is put into holes is asked by nobody: each arrangement finds what the one before has found.
-            let (ticks, _) = filled(clock, &mut map, (tints, states), &rule, Arrangement::Sparse);
-            counts.colours += ticks;
-            let (ticks, holes) = filled(clock, &mut map, (moving, states), &rule, Arrangement::Sparse);
-            counts.moving += ticks;
-            counts.holes += holes;
-            let (ticks, _) = filled(clock, &mut map, (moving, states), &rule, Arrangement::Dense);
-            counts.dense += ticks;
+            let inpainting = Inpainting { quads: false, ..Inpainting::for_depth(bits, Gamma::Zero) };
+            let mut controller = Controller::new(map, front, Scratch::default()).expect("maps of one grid");
+            // What is put into holes is asked by nobody: the second finds what the first has found.
+            for motion in [Motion::Kept, Motion::Inpainted] {
+                let mut push_pull =
+                    PushPull::new(grid.width(), grid.height(), motion, memory).expect("memory enough");
+                let (settings, inpainting) = (black_box(&settings), black_box(&inpainting));
+                let (ticks, holes) = clock.time(|| controller.inpaint(settings, inpainting, &mut push_pull));
+                match motion {
+                    Motion::Kept => counts.colours += ticks,
+                    Motion::Inpainted => {
+                        counts.moving += ticks;
+                        counts.holes += holes;
+                    }
+                }
+            }
             counts.frames += 1;
         }
         back[..words].copy_from_slice(&kept[..words]);
@@ -103,9 +68,9 @@ impl Bench {
 }
 
 impl Counts {
-    /// A row for each arrangement: a galpixel of the whole map, and a hole.
+    /// A row for each kind: a galpixel of the whole map, and a hole.
     pub fn print(&self, row: Row, galpixels: u32) {
-        let Self { frames, holes, quads, moving, colours, dense } = *self;
+        let Self { frames, holes, quads, moving, colours } = *self;
         let all = galpixels * frames;
         print_hundredths(&Row { stage: "holes-%", ..row }, u64::from(holes) * 10_000 / u64::from(all));
         if quads > 0 {
@@ -113,7 +78,6 @@ impl Counts {
         }
         print(&Row { stage: "push-pull", ..row }, moving, all);
         print(&Row { stage: "push-pull-colour", ..row }, colours, all);
-        print(&Row { stage: "push-pull-dense", ..row }, dense, all);
         if holes > 0 {
             print(&Row { stage: "push-pull-a-hole", ..row }, moving, holes);
         }

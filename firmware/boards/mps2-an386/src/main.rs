@@ -20,18 +20,17 @@ mod machine;
 mod pictures;
 mod plain;
 mod report;
+mod stages;
 
 use core::hint::black_box;
 
 use cortex_m_rt::{ExceptionFrame, entry, exception};
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::pyramid::{Cell, state_words};
+use galpix_core::inpaint::{Motion, PushPull};
 use galpix_core::{Grid, Margin, Scratch};
 use semihosting::{eprintln, println, process};
 
 use bench::Bench;
 use clock::Clock;
-use inpainting::Pyramids;
 use layouts::MOST_WORDS;
 use machine::{Machine, Psram};
 use pictures::Picture;
@@ -43,8 +42,8 @@ const HEIGHT: u32 = 240;
 /// Rows for constant time.
 const BAND: u32 = 48;
 const CELLS: usize = (WIDTH * HEIGHT) as usize;
-/// Cells of a pyramid.
-const PULLED: usize = levels::cells(WIDTH, HEIGHT);
+/// Words for push-pull of either kind.
+const PUSH_PULL_WORDS: usize = PushPull::words(WIDTH, HEIGHT, Motion::Inpainted);
 
 #[entry]
 fn main() -> ! {
@@ -60,11 +59,6 @@ fn main() -> ! {
         process::exit(2)
     });
     print_head();
-    let pyramids = Pyramids {
-        tints: psram.lend(PULLED, Cell::default()).expect("memory enough"),
-        moving: psram.lend(PULLED, Cell::default()).expect("memory enough"),
-        states: psram.lend(state_words(PULLED), 0).expect("memory enough"),
-    };
     let mut lend = |words: usize| psram.lend(words, 0).expect("memory enough");
     let mut bench = Bench {
         clock,
@@ -75,7 +69,7 @@ fn main() -> ! {
         window_rows: lend(HEIGHT as usize),
         maps: [FRONT, BACK],
         scratch: Scratch { winners: WINNERS, edges: EDGES },
-        pyramids,
+        push_pull: lend(PUSH_PULL_WORDS),
     };
     layouts::measure_all(&mut bench);
     measure_plain(clock, &mut psram);

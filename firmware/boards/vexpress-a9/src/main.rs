@@ -11,10 +11,10 @@ mod end;
 mod interrupts;
 mod memory;
 mod panel;
-mod push_pull;
 mod uart;
 
 use galpix_controller::board::Board;
+use galpix_controller::inpainted;
 use galpix_controller::session::{Session, log_start};
 use galpix_core::{Controller, Galpixmap, Grid, Margin, Scratch, SetupError, Static};
 use galpix_link::panel::Panel;
@@ -81,7 +81,7 @@ fn main() -> ! {
 
     let board = Express { lcd, vsyncs: 0 };
     let Ok(controller) = controller(lent.maps, lent.scratch, lent.starts) else { end::fail() };
-    let Ok(maps) = push_pull::inpainted(controller) else { end::fail() };
+    let Ok(maps) = inpainted::of_panel::<Display, _>(controller, lent.push_pull) else { end::fail() };
     Session::new(board, maps, Display::DESCRIPTION, Display::SETTINGS).run()
 }
 

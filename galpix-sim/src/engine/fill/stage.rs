@@ -1,7 +1,7 @@
 //! The core's inpainting over memory of the host.
 
 use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, PushPull, Recipe};
-use galpix_core::{Format as _, Grid, Maps, Settings};
+use galpix_core::{Grid, Maps, Settings};
 
 use super::{Inpaint, Kind, in_fovea};
 

@@ -1,9 +1,6 @@
 //! The engine and the slow model of the specification, side by side: the same bits in every map, count and flag.
 
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::paint::Moving;
-use galpix_core::inpaint::pyramid::{Cell as PyramidCell, Pyramid, state_words};
-use galpix_core::inpaint::validity::Gamma;
+use galpix_core::inpaint::{Gamma, Motion, PushPull};
 use galpix_core::layers::{Layers, displacement_word};
 use galpix_core::{Controller, Dynamic, FillMode, Format, Inpainting, Layout, Rounding, Scratch, Settings};
 use galpix_tests::lent::{Mode, Shape, Trace, cell_words, with_controller, with_maps, words};
@@ -137,10 +134,9 @@ fn write(layers: &mut Layers<'_, '_, Dynamic>, model: &mut Model, generator: &mu
 fn inpainted(layers: &mut Layers<'_, '_, Dynamic>, model: &mut Model, settings: &Settings, what: &str) -> u32 {
     let (columns, rows) = (model.shape.columns(), model.shape.rows());
     let inpainting = Inpainting::for_depth(u32::from(model.format.record().depth().bits), Gamma::Half);
-    let mut memory = vec![PyramidCell::<Moving>::default(); levels::cells(columns, rows)];
-    let mut states = vec![0; state_words(memory.len())];
-    let mut pyramid = Pyramid::new(columns, rows, &mut memory, &mut states).unwrap();
-    let filled = layers.inpaint(settings, &inpainting, &mut pyramid);
+    let mut memory = vec![0; PushPull::words(columns, rows, Motion::Inpainted)];
+    let mut push_pull = PushPull::new(columns, rows, Motion::Inpainted, &mut memory).unwrap();
+    let filled = layers.inpaint(settings, &inpainting, &mut push_pull);
     let (shown, of) = model.shown();
     let mut edges = packed_edges(&model.edges);
     let (shown, expected) = with_maps(model.shape, model.format, Some(&planes(&shown)), |front, _| {
@@ -148,7 +144,7 @@ fn inpainted(layers: &mut Layers<'_, '_, Dynamic>, model: &mut Model, settings: 
             let edges: &mut [u32] = if model.layers[0].kind.edges { &mut edges } else { &mut [] };
             let mut controller = Controller::new(front, before, Scratch { winners: &mut [], edges }).unwrap();
             controller.set_frame(model.frame);
-            let filled = controller.inpaint(settings, &inpainting, &mut pyramid);
+            let filled = controller.inpaint(settings, &inpainting, &mut push_pull);
             (cells_of(controller.front()), filled)
         })
     });
