@@ -25,10 +25,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut memory = [0; PushPull::words(32, 8, Motion::Kept)];
     let mut push_pull = PushPull::new(32, 8, Motion::Kept, &mut memory)?;
     let shade = |galpixel: Galpixel| char::from(b"0123456789abcde#"[usize::from(galpixel.colour[0] / 16)]);
-
     let settings = Settings { fill_mode: FillMode::Extend, ..Settings::for_depth(8) };
     controller.step(&settings);
-    let hole = |galpixel| if galpixel.class == Class::JustUnobscured { '?' } else { shade(galpixel) };
+    let hole = |galpixel: Galpixel| if galpixel.class == Class::JustUnobscured { '?' } else { shade(galpixel) };
     let row = |y| (0..32).filter_map(|x| controller.front().load(x, y)).map(hole).collect::<String>();
     let before: Vec<String> = (0..8).map(row).collect();
     let filled = controller.inpaint(&settings, &Inpainting::for_depth(8, Gamma::Half), &mut push_pull);

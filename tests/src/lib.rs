@@ -3,6 +3,7 @@
 //! Nothing here calls the code it is used to check: [`exact`] and [`packed`] say the same things once more, slowly.
 
 pub mod art;
+pub mod captures;
 pub mod exact;
 pub mod layouts;
 pub mod lent;

@@ -8,6 +8,7 @@ use galpix_core::FillMode;
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
 use galpix_sim::study::run::{self, Request, RunReport};
+use galpix_tests::captures::{manifests, shared};
 
 /// PSNR in dB of a forward warp in floating point with velocity and acceleration, to the nearest pixel and without fill,
 /// over the pixels that it reached; by capture and frame. From the captures' own description.
@@ -60,17 +61,6 @@ fn run(source: &Source, request: &Request) -> RunReport {
     experiment::run(source, request, |_| ()).unwrap_or_else(|error| panic!("{}: {error}", source.name()))
 }
 
-fn manifests(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).expect("a folder that can be read") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            manifests(&path, found);
-        } else if path.file_name().is_some_and(|name| name == "capture.toml") {
-            found.push(path);
-        }
-    }
-}
-
 /// Calls `work` for each of `items`, on all processors.
 fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = std::sync::atomic::AtomicUsize::new(0);
@@ -97,13 +87,7 @@ fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> 
 fn captures() -> Option<&'static [Ran]> {
     static RAN: OnceLock<Option<Vec<Ran>>> = OnceLock::new();
     let ran = RAN.get_or_init(|| {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-        if !folder.is_dir() {
-            return None;
-        }
-        let mut found = Vec::new();
-        manifests(&folder, &mut found);
-        found.sort();
+        let found = manifests(&shared()?);
         Some(each(&found, |manifest| Ran {
             manifest: manifest.clone(),
             report: run(&open(manifest), &request(FillMode::default())),

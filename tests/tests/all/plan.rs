@@ -1,13 +1,12 @@
 //! A plan never claims what its certificate does not hold.
 
-use std::path::{Path, PathBuf};
-
 use galpix_core::Static;
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
 use galpix_sim::study::run::Request;
 use galpix_sim::study::plan::{self, Planning};
 use galpix_sim::source::scene;
+use galpix_tests::captures::{manifests, shared};
 
 fn planned(source: &Source, max_error: f64) -> Planning {
     let request = Request { perceptual: false, ..Request::default() };
@@ -99,26 +98,12 @@ fn the_printed_code_compiles_and_is_the_plan() {
     assert_eq!((settings.fill_mode.name(), settings.rounding.name()), (plan.rung, plan.motion.rounding));
 }
 
-fn manifests(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).expect("a folder that can be read") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            found.extend(manifests(&path));
-        } else if path.file_name().is_some_and(|name| name == "capture.toml") {
-            found.push(path);
-        }
-    }
-    found
-}
-
 #[test]
 fn plans_of_all_captures_hold_what_they_claim() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
-    if !folder.is_dir() {
+    let Some(folder) = shared() else {
         eprintln!("skipped: ../shared/data is absent");
         return;
-    }
+    };
     let mut planned_captures = 0;
     for manifest in manifests(&folder) {
         let source = Source::open(&manifest.to_string_lossy(), &ImportOptions::default()).unwrap();

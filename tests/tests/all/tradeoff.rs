@@ -1,6 +1,6 @@
 //! Error against run time: the certificate over all lanes and steps of the format, and floats beside the engine.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use galpix_core::{Demand, Dynamic, FillMode, Format, Rounding, Settings};
 use galpix_sim::source::capture::ImportOptions;
@@ -12,6 +12,7 @@ use galpix_sim::study::error::design::{Configuration, Kept, Step};
 use galpix_sim::study::error::ranges::Ranges;
 use galpix_sim::study::error::reference::Reference;
 use galpix_sim::study::error::{float, measure};
+use galpix_tests::captures::{manifests, shared};
 
 /// What floating point may add to an error of a pixel.
 const FLOAT: f64 = 1e-6;
@@ -82,27 +83,12 @@ fn every_scene_keeps_the_certificate_in_all_lanes() {
     assert!(checked.frames >= 200 && checked.reached > 0.5, "{} frames, {}", checked.frames, checked.reached);
 }
 
-fn manifests(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in std::fs::read_dir(folder).expect("a folder that can be read") {
-        let path = entry.expect("an entry").path();
-        if path.is_dir() {
-            manifests(&path, found);
-        } else if path.file_name().is_some_and(|name| name == "capture.toml") {
-            found.push(path);
-        }
-    }
-}
-
 #[test]
 fn every_capture_keeps_the_certificate_in_all_lanes() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut found = Vec::new();
-    manifests(&root.join("captures"), &mut found);
-    let data = root.join("../shared/data");
-    if data.is_dir() {
-        manifests(&data, &mut found);
-    } else {
-        eprintln!("../shared/data is absent: only the project's own captures are checked");
+    let mut found = manifests(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures"));
+    match shared() {
+        Some(data) => found.extend(manifests(&data)),
+        None => eprintln!("../shared/data is absent: only the project's own captures are checked"),
     }
     let mut checked = Checked::default();
     for manifest in &found {

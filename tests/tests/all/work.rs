@@ -1,16 +1,13 @@
 //! A frame with constant work and one that skips what its picture does not need give the same bits: all planes, tally, winners
 //! and edges.
 
-#[path = "../../../galpix-core/benches/common/pictures.rs"]
-mod pictures;
-
+use galpix_bench::pictures::Picture;
 use galpix_core::record::Field;
 use galpix_core::{Class, Colour, Dynamic, FillMode, Format, Layout, Rounding, Settings, Tally};
 use galpix_tests::lent::{Lent, Mode, Run, Shape, Trace, assert_same, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, UNEVEN, dynamic, formats};
 use galpix_tests::random;
 use galpix_tests::stage::{self, settings_in_turn};
-use pictures::Picture;
 
 const FRAMES: u32 = 8;
 
