@@ -64,14 +64,6 @@ pub(crate) struct Target<'t, 'p, F> {
     pub tally: &'t mut Tally,
 }
 
-/// A cell of the old map.
-#[derive(Clone, Copy)]
-struct Source {
-    cell: u32,
-    x: u32,
-    y: i32,
-}
-
 /// Propagates row `y` of `front` into `target` and resolves collisions.
 pub(crate) fn sweep_row<F: Format>(
     front: &Galpixmap<'_, F>,
@@ -83,8 +75,8 @@ pub(crate) fn sweep_row<F: Format>(
     let Some(start) = front.grid().row(y) else { return };
     let mut x = 0;
     while x < width {
-        let source = Source { cell: start + x, x, y };
-        let class = front.class(source.cell);
+        let (source, place) = (start + x, [x as i32, y]);
+        let class = front.class(source);
         if class == Class::Empty {
             x += 1;
             continue;
@@ -92,13 +84,13 @@ pub(crate) fn sweep_row<F: Format>(
         let mut stepped = 0;
         // Just-unobscured becomes debris in this step; it is rare, and runs do not support it.
         if class != Class::JustUnobscured
-            && let Some(run) = run_at(front, source, thresholds, target.back)
+            && let Some(run) = run_at(front, source, place, thresholds, target.back)
         {
             stepped = step_run(front, &run, thresholds, target).unwrap_or(0);
             target.tally.moved += stepped;
         }
         if stepped == 0 {
-            step_one(front, source, thresholds, target);
+            step_one(front, source, place, thresholds, target);
             stepped = 1;
         }
         x += stepped;
@@ -117,26 +109,27 @@ struct Run {
     lowest: [i32; 2],
 }
 
-/// Returns the run that may begin with the galpixel of a cell; `None` if it leaves the map.
+/// Returns the run that may begin with the galpixel of the cell `source` in column `x` of row `y`; `None` if it leaves
+/// the map.
 #[inline(always)]
 fn run_at<F: Format>(
     front: &Galpixmap<'_, F>,
-    source: Source,
+    source: u32,
+    [x, y]: [i32; 2],
     thresholds: &[i32; 3],
     back: &Galpixmap<'_, F>,
 ) -> Option<Run> {
-    let Source { cell: source, x, y } = source;
     let width = front.grid().width();
     let step = advance::<false>(front.record(), thresholds, &mut front.words_at(source)?);
     let moved = [step.dx, step.dy];
-    let to_x = x as i32 + moved[0];
+    let to_x = x + moved[0];
     let cell = back.grid().cell(to_x, y + moved[1])?;
     let lowest = |component: usize| {
         let frac = front.record().scales[component].position_frac;
         (moved[component] << frac) - ((1 << frac) >> 1)
     };
     let lowest = [lowest(0), lowest(1)];
-    Some(Run { source, cell, most: width - x.max(to_x as u32), lowest })
+    Some(Run { source, cell, most: width - x.max(to_x) as u32, lowest })
 }
 
 /// Repeats a block for each word, with its number as a constant, so that blocks of words that a record lacks are
@@ -313,21 +306,21 @@ fn step_run<F: Format>(
     Some(count)
 }
 
-/// Steps the galpixel or debris of any cell and resolves a collision.
+/// Steps the galpixel or debris of the cell `source` in column `x` of row `y`, and resolves a collision.
 #[inline(never)]
 fn step_one<F: Format>(
     front: &Galpixmap<'_, F>,
-    source: Source,
+    source: u32,
+    [x, y]: [i32; 2],
     thresholds: &[i32; 3],
     target: &mut Target<'_, '_, F>,
 ) {
-    let Source { cell: source, x, y } = source;
     let Target { back, winners, tally } = target;
     let Some(mut words) = front.words_at(source) else { return };
     let step = advance::<true>(front.record(), thresholds, &mut words);
     tally.moved += 1;
     tally.saturated += step.saturated();
-    let Some(cell) = back.grid().cell(x as i32 + step.dx, y + step.dy) else {
+    let Some(cell) = back.grid().cell(x + step.dx, y + step.dy) else {
         tally.lost += 1;
         return;
     };

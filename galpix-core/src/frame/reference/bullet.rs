@@ -65,7 +65,7 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
     pub fn mean(&self, x: i32, y: i32, cell: u32) -> (Words, u32) {
         let grid = self.back.grid();
         // All ones if there is a column to the left and to the right.
-        let (left, right) = (not_zero(x as u32), below(x as u32, grid.width() - 1));
+        let (left, right) = (not_zero(x as u32), not_zero(x as u32 ^ (grid.width() - 1)));
         // Above the first and below the last row, the row itself.
         let row = |y: i32| grid.row(y).map_or((cell.wrapping_sub(x as u32), 0), |row| (row, u32::MAX));
         let rows = [row(y - 1), row(y), row(y + 1)];
