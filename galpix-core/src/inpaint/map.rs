@@ -1,14 +1,12 @@
 //! A galpixmap as a picture with holes, and how its holes are filled.
 
-use core::marker::PhantomData;
-
 use super::kernel::{Known, each};
 use super::mean::tie;
 use super::metamer::Metamer;
 #[cfg(feature = "check")]
 use super::metamer::reference::metamers as metamers_by_reference;
 use super::metamer::tone::Tone;
-use super::paint::{Moving, Tint};
+use super::paint::{Moving, Tint, TintOf};
 use super::push_pull::{Holed, Motion, PushPull, RUN};
 use super::pyramid::{DEPTH_BITS, Stored};
 #[cfg(feature = "check")]
@@ -29,8 +27,14 @@ const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel: Stored {
+    /// How it is taken from stored colours.
+    type From: Copy;
+
+    /// Looks a format up.
+    fn from(format: &Colour) -> Self::From;
+
     /// Returns what a cell of this colour holds.
-    fn of(format: &Colour, colour: u32, cell: u32) -> Self;
+    fn of(from: &Self::From, colour: u32, cell: u32) -> Self;
 
     /// Returns the words of a hole that held `words` and gets this.
     fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words;
@@ -38,9 +42,16 @@ pub trait OfGalpixel: Stored {
 
 /// The colour alone: the motion stays the one that the fill mode gave.
 impl OfGalpixel for Tint {
+    type From = TintOf;
+
     #[inline(always)]
-    fn of(format: &Colour, colour: u32, _: u32) -> Self {
-        Self::of(format, colour)
+    fn from(format: &Colour) -> TintOf {
+        TintOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(from: &TintOf, colour: u32, _: u32) -> Self {
+        from.tint(colour)
     }
 
     #[inline(always)]
@@ -52,9 +63,16 @@ impl OfGalpixel for Tint {
 
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl OfGalpixel for Moving {
+    type From = TintOf;
+
     #[inline(always)]
-    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
-        Self { tint: Tint::of(format, colour), source: cell }
+    fn from(format: &Colour) -> TintOf {
+        TintOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(from: &TintOf, colour: u32, cell: u32) -> Self {
+        Self { tint: from.tint(colour), source: cell }
     }
 
     #[inline(always)]
@@ -122,19 +140,26 @@ pub(super) fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: W
 }
 
 /// A galpixmap whose cells of class just unobscured are its holes.
-#[derive(Debug)]
-pub struct Uncovered<'m, 'p, F, V> {
+pub struct Uncovered<'m, 'p, F, V: OfGalpixel> {
     pub(super) map: &'m mut Galpixmap<'p, F>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
-    value: PhantomData<V>,
+    /// See [`Self::from`].
+    from: V::From,
 }
 
 impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
     /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for
     /// all of them, and beyond the end of one no hole is filled.
-    pub const fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
-        Self { map, mask, value: PhantomData }
+    pub fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
+        let from = V::from(map.record().colour_format());
+        Self { map, mask, from }
+    }
+
+    /// Returns how values are taken from stored colours: a constant, where the format is one.
+    #[inline(always)]
+    pub(super) fn from(&self) -> V::From {
+        if F::FIXED { V::from(self.map.record().colour_format()) } else { self.from }
     }
 
     /// Returns what is known of a cell with this class and depth.
@@ -147,11 +172,7 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
         if class == Class::Galpixel as u32 {
-            Known {
-                validity: FULL,
-                depth,
-                value: V::of(self.map.record().colour_format(), self.map.colour(cell), cell),
-            }
+            Known { validity: FULL, depth, value: V::of(&self.from(), self.map.colour(cell), cell) }
         } else {
             Known { validity: 0, depth, value: V::default() }
         }
@@ -254,11 +275,12 @@ impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
         if all >> bits != 0 || uneven != 0 {
             return None;
         }
+        let from = self.from();
         let values = |cell: u32| {
             let mut values = [V::default(); CELLS];
             let colours = self.map.colours(cell as usize..cell as usize + CELLS);
             for ((value, colour), cell) in values.iter_mut().zip(colours).zip(cell..) {
-                *value = V::of(self.map.record().colour_format(), colour, cell);
+                *value = V::of(&from, colour, cell);
             }
             values
         };

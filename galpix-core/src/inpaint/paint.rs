@@ -12,17 +12,40 @@ const CHANNEL_BITS: u32 = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Tint(u32);
 
-impl Tint {
+/// How stored colours become tints: where each channel is, and where it goes. Loops by it become vector code, whatever the
+/// format.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TintOf {
+    down: [u32; 3],
+    mask: [u32; 3],
+    up: [u32; 3],
+}
+
+impl TintOf {
+    /// Looks a format up. The one channel of a gray goes into the place of the last one.
+    #[inline(always)]
+    #[must_use]
+    pub fn new(format: &Colour) -> Self {
+        let mut tint = Self::default();
+        for (place, channel) in format.channels().rev().enumerate() {
+            let at = 2 - place;
+            tint.down[at] = channel.shift;
+            tint.mask[at] = (1 << channel.bits) - 1;
+            tint.up[at] = place as u32 * CHANNEL_BITS + CHANNEL_BITS - channel.bits;
+        }
+        tint
+    }
+
     /// Returns the channels of a stored colour, each moved up to ten bits.
     #[inline(always)]
     #[must_use]
-    pub fn of(format: &Colour, colour: u32) -> Self {
-        Self(format.channels().fold(0, |tint, channel| {
-            let level = colour >> channel.shift & ((1 << channel.bits) - 1);
-            tint << CHANNEL_BITS | level << (CHANNEL_BITS - channel.bits)
-        }))
+    pub fn tint(&self, colour: u32) -> Tint {
+        let channel = |at: usize| (colour >> self.down[at] & self.mask[at]) << self.up[at];
+        Tint(channel(0) | channel(1) | channel(2))
     }
+}
 
+impl Tint {
     /// Returns the stored colour: each channel to the nearest, halves upwards.
     #[inline(always)]
     #[must_use]
@@ -181,7 +204,7 @@ mod tests {
 
     fn comes_back(format: Colour, colours: impl Iterator<Item = u32>) {
         for colour in colours {
-            assert_eq!(Tint::of(&format, colour).colour(&format), colour);
+            assert_eq!(TintOf::new(&format).tint(colour).colour(&format), colour);
         }
     }
 
@@ -191,6 +214,8 @@ mod tests {
         comes_back(Colour::RGB565, 0..1 << 16);
         comes_back(Colour::GRAY8, 0..256);
         comes_back(Colour::GRAY4, 0..16);
+        comes_back(Colour::must(Colour::rgb(1, 7, 3)), 0..1 << 11);
+        comes_back(Colour::must(Colour::gray(1)), 0..2);
     }
 
     #[test]
@@ -211,9 +236,9 @@ mod tests {
 
     #[test]
     fn channels_do_not_reach_into_each_other() {
-        let [black, white] = [0, 0xff_ffff].map(|colour| Tint::of(&Colour::RGB888, colour));
+        let [black, white] = [0, 0xff_ffff].map(|colour| TintOf::new(&Colour::RGB888).tint(colour));
         for channel in 0..3 {
-            let one = Tint::of(&Colour::RGB888, 0xff << (8 * channel));
+            let one = TintOf::new(&Colour::RGB888).tint(0xff << (8 * channel));
             for weights in [[1, 0, 0, 0], [16; 4], [1, 2, 3, 4], [0, 0, 15, 1]] {
                 let mean = Tint::mean(&[one, one, one, one], &weights, 1);
                 assert_eq!(mean, one);

@@ -5,7 +5,7 @@ extern crate std;
 
 use super::kernel::{Known, Value};
 use super::mean::tie;
-use super::paint::Tint;
+use super::paint::{Tint, TintOf};
 use super::push_pull::{Holed, RUN};
 use super::validity::FULL;
 use crate::error::SetupError;
@@ -17,6 +17,7 @@ pub struct Picture<'p> {
     width: u32,
     height: u32,
     format: Colour,
+    tint_of: TintOf,
     colours: &'p mut [u32],
     known: &'p [u32],
     depths: &'p [u32],
@@ -47,7 +48,7 @@ impl<'p> Picture<'p> {
         let cells = (width * height) as usize;
         enough("picture", colours.len(), cells)?;
         enough("mask", known.len(), cells.div_ceil(WORD as usize))?;
-        Ok(Self { width, height, format, colours, known, depths: &[] })
+        Ok(Self { width, height, format, tint_of: TintOf::new(&format), colours, known, depths: &[] })
     }
 
     /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer.
@@ -92,7 +93,7 @@ impl Holed for Picture<'_> {
         Known {
             validity: (self.bits(cell) & 1) * FULL,
             depth: self.depths.get(cell as usize).copied().unwrap_or_default(),
-            value: Tint::of(&self.format, self.colours.get(cell as usize).copied().unwrap_or_default()),
+            value: self.tint_of.tint(self.colours.get(cell as usize).copied().unwrap_or_default()),
         }
     }
 
@@ -110,7 +111,7 @@ impl Holed for Picture<'_> {
             [0, 1].map(|i: usize| Known {
                 validity: (bits[i] & 1) * FULL,
                 depth: depths[i],
-                value: Tint::of(&self.format, colours[i]),
+                value: self.tint_of.tint(colours[i]),
             })
         };
         let cell = top * self.width + left;
@@ -153,7 +154,7 @@ impl Holed for Picture<'_> {
         let (upper, lower) = (cells(self.colours, cell)?, cells(self.colours, cell + self.width)?);
         for (i, (_, value)) in run.iter_mut().enumerate() {
             let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]]
-                .map(|colour| Tint::of(&self.format, colour));
+                .map(|colour| self.tint_of.tint(colour));
             *value = Tint::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)

@@ -12,11 +12,59 @@ use crate::inpaint::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
+/// How stored colours become tones: where each channel is, and by how much it is moved down to be repeated until it has eight
+/// bits. Loops by it become vector code, whatever the format.
+#[derive(Clone, Copy, Debug)]
+pub struct ToneOf {
+    down: [u32; 3],
+    mask: [u32; 3],
+    up: [u32; 3],
+    again: [[u32; 3]; 3],
+}
+
+impl ToneOf {
+    /// Looks a format up. The one channel of a gray stands for all three.
+    #[inline(always)]
+    fn new(format: &Colour) -> Self {
+        let mut tone = Self { down: [0; 3], mask: [0; 3], up: [0; 3], again: [[0; 3]; 3] };
+        for (at, channel) in core::iter::repeat_with(|| format.channels()).flatten().take(3).enumerate() {
+            let bits = channel.bits;
+            tone.down[at] = channel.shift;
+            tone.mask[at] = (1 << bits) - 1;
+            tone.up[at] = 8 - bits;
+            // Of eight bits or fewer nothing is left beyond.
+            tone.again[at] = [bits, 2 * bits, if bits < 8 { 4 * bits } else { 31 }];
+        }
+        tone
+    }
+
+    /// Returns luma and chroma of a stored colour.
+    #[inline(always)]
+    fn channels(&self, colour: u32) -> [i16; 3] {
+        let channel = |at: usize| {
+            let [first, second, third] = self.again[at];
+            let wide = (colour >> self.down[at] & self.mask[at]) << self.up[at];
+            let wide = wide | wide >> first;
+            let wide = wide | wide >> second;
+            (wide | wide >> third) as u8
+        };
+        // The `map` of arrays would be a call.
+        ycbcr::of_rgb([channel(0), channel(1), channel(2)])
+    }
+}
+
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl OfGalpixel for Tone {
+    type From = ToneOf;
+
     #[inline(always)]
-    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
-        Self { channels: ycbcr::of_rgb(format.to_rgb888(colour)), source: cell }
+    fn from(format: &Colour) -> ToneOf {
+        ToneOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(from: &ToneOf, colour: u32, cell: u32) -> Self {
+        Self { channels: from.channels(colour), source: cell }
     }
 
     #[inline(always)]
@@ -59,12 +107,13 @@ impl<F: Format> Scene for Uncovered<'_, '_, F, Tone> {
         for (to, colour) in colours.iter_mut().zip(self.map.colours(first..first + count)) {
             *to = colour;
         }
+        let from = self.from();
         for x in 0..COLUMNS {
             let depth = pyramid_depth(keys[x] & ((1 << bits) - 1), bits);
             let class = keys[x] >> bits;
             cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
             cells.known[x] = -((class == Class::Galpixel as u32) as i32);
-            let [luma, blue, red] = ycbcr::of_rgb(self.map.record().colour_format().to_rgb888(colours[x]));
+            let [luma, blue, red] = from.channels(colours[x]);
             cells.channels[0][x] = luma;
             cells.channels[1][x] = blue;
             cells.channels[2][x] = red;
@@ -122,6 +171,18 @@ mod tests {
         comes_back(Colour::RGB565, 0..1 << 16);
         comes_back(Colour::GRAY8, 0..256);
         comes_back(Colour::GRAY4, 0..16);
+    }
+
+    #[test]
+    fn tones_are_those_of_eight_bits() {
+        for bits in 1..=8 {
+            let gray = Colour::must(Colour::gray(bits));
+            for format in [gray, Colour::must(Colour::rgb(bits, 9 - bits, 1 + bits / 2))] {
+                for colour in 0..1 << format.bits().min(16) {
+                    assert_eq!(ToneOf::new(&format).channels(colour), ycbcr::of_rgb(format.to_rgb888(colour)));
+                }
+            }
+        }
     }
 
     #[test]

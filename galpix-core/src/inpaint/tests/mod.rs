@@ -10,7 +10,7 @@ use std::vec::Vec;
 
 use super::kernel::{Known, pulled};
 use super::levels::Levels;
-use super::paint::Tint;
+use super::paint::TintOf;
 use super::reference;
 use super::{Gamma, Inpainting, Motion, Picture, PushPull};
 use crate::error::SetupError;
@@ -150,7 +150,7 @@ fn push_pull_has_the_bits_of_the_reference_and_of_a_slow_text() {
 #[test]
 fn pulling_four_cells_is_what_the_rule_says_for_all_of_a_small_width() {
     let one = |code: u32| {
-        let value = Tint::of(&Colour::GRAY8, [0, 255, 100][(code / 6 % 3) as usize]);
+        let value = TintOf::new(&Colour::GRAY8).tint([0, 255, 100][(code / 6 % 3) as usize]);
         Known { validity: [0, 5, 16][(code % 3) as usize], depth: code / 3 % 2 * 3, value }
     };
     let mut seen = 0;
