@@ -95,8 +95,8 @@ impl Study for Plan {
 }
 
 impl Plan {
-    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the others
-    /// have a budget too.
+    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the
+    /// others have a budget too.
     ///
     /// *Errors:* a demand or lanes that give no budget.
     fn job<'s>(&self, source: &'s Source) -> Result<Job<'s>, ExperimentError> {
@@ -139,7 +139,7 @@ impl Run<'_> {
 /// Measures a source; `tell` is told how it gets on.
 fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
     let Job { source, frames, demand, .. } = *job;
-    let reference = Reference::new(source, frames);
+    let reference = Reference::with_update(source, job.update.clone(), frames);
     let update = &reference.update;
     let axes = plan.axes(update);
     let cells = update.samples.len();

@@ -22,7 +22,8 @@ pub struct PictureError {
     pub missing_percent: Option<f64>,
 }
 
-/// A frame that was looked at. Positions are those of galpixels of the update, before the snap to a cell, the worse of x and y.
+/// A frame that was looked at. Positions are those of galpixels of the update, before the snap to a cell, the worse of
+/// x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct FrameError {
     /// Frames since the update.
@@ -69,7 +70,8 @@ impl FrameError {
     }
 }
 
-/// All frames of a point in one figure each: worst positions and bounds are the largest, the others means over the frames.
+/// All frames of a point in one figure each: worst positions and bounds are the largest, the others means over the
+/// frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Summary {
     /// See [`FrameError::worst_px`].
@@ -160,8 +162,8 @@ pub struct Point {
     pub run_time: Option<Time>,
     /// The time in the form of a product: with the budget fixed at compile time; none for lanes without a stand-in.
     pub compile_time: Option<Time>,
-    /// The compile-time budget that `compile_time` was measured with; none for lanes that have none, and for floats, which
-    /// are themselves.
+    /// The compile-time budget that `compile_time` was measured with; none for lanes that have none, and for floats,
+    /// which are themselves.
     pub stand_in: Option<String>,
     /// All frames together.
     pub summary: Summary,
