@@ -14,6 +14,7 @@ mod columns;
 pub mod design;
 mod figures;
 pub mod float;
+pub mod frames;
 mod legend;
 pub mod measure;
 mod page;
@@ -36,9 +37,10 @@ use crate::output::column;
 use crate::source::Source;
 use crate::update::{Known, Update};
 use design::{Axes, Configuration, Extent, Kept, Step};
+use frames::Summary;
 use ranges::Ranges;
 use reference::Reference;
-use report::{DemandReport, Fronts, Point, Scheme, SourceReport, Summary};
+use report::{DemandReport, Fronts, Point, Scheme, SourceReport};
 
 /// What to measure.
 #[derive(Clone, Debug)]

@@ -6,7 +6,8 @@ use galpix_core::{Bits, BudgetError, Dynamic, FillMode, Format, Record, Rounding
 use rayon::prelude::*;
 
 use super::design::{Configuration, Kept, Step};
-use super::report::{FrameError, Point, Scheme, Summary};
+use super::frames::{FrameError, Summary};
+use super::report::{Point, Scheme};
 use super::{Run, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::engine::fill::Fill;
