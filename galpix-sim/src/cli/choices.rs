@@ -97,8 +97,8 @@ impl From<GammaChoice> for Gamma {
 /// How push-pull and metamer inpaint.
 #[derive(Clone, Debug, Default, Args)]
 pub struct Inpainting {
-    /// For push-pull and metamer: the power of the share that is known, by which partly known areas count [default: 0 for push-pull,
-    /// 1/2 for metamer]
+    /// For push-pull and metamer: the power of the share that is known, by which partly known areas count [default: 0
+    /// for push-pull, 1/2 for metamer]
     #[arg(long, value_enum, value_name = "GAMMA")]
     pub gamma: Option<GammaChoice>,
     /// For push-pull and metamer: leave a disc of this radius in the middle of the display to the rung extend

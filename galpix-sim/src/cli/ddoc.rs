@@ -12,8 +12,8 @@ use crate::study::ddoc::{self, Request, SIZES};
 /// Arguments of `galpix ddoc`.
 #[derive(Debug, Args)]
 pub struct Ddoc {
-    /// Built-in scenes, the worlds portal and knot, or paths of OBJ files [default: pillars, sphere, crossing, near-plane, portal,
-    /// knot]
+    /// Built-in scenes, the worlds portal and knot, or paths of OBJ files [default: pillars, sphere, crossing,
+    /// near-plane, portal, knot]
     #[arg(value_name = "WORLD")]
     worlds: Vec<String>,
     /// D, how far behind an edge samples are fetched, in pixels [default: a 32nd of the size]
@@ -25,7 +25,8 @@ pub struct Ddoc {
     /// Side of the reference images, in pixels, 64 to 2048
     #[arg(long, value_name = "PX", default_value_t = 512, value_parser = size)]
     size: usize,
-    /// Folder for ddoc.html, ddoc.json and the pictures [default: galpix-out/ddoc; with --json nothing is written without it]
+    /// Folder for ddoc.html, ddoc.json and the pictures [default: galpix-out/ddoc; with --json nothing is written
+    /// without it]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON

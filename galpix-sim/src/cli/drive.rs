@@ -1,5 +1,5 @@
-//! Runs a study: its jobs are resolved before anything is made, each source's figures are printed as they are there, and the
-//! files are written at the end, the page last.
+//! Runs a study: its jobs are resolved before anything is made, each source's figures are printed as they are there,
+//! and the files are written at the end, the page last.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -27,7 +27,8 @@ pub struct Publication {
 }
 
 impl Publication {
-    /// Puts files into the folder that was asked for, else into `galpix-out/NAME`, and nowhere where only JSON is printed.
+    /// Puts files into the folder that was asked for, else into `galpix-out/NAME`, and nowhere where only JSON is
+    /// printed.
     pub fn usual(out: Option<&PathBuf>, json: bool, name: &str) -> Self {
         let usual = (!json).then(|| Path::new("galpix-out").join(name));
         Self { out: out.cloned().or(usual), json }

@@ -85,7 +85,8 @@ pub struct Error {
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
-    /// Folder for error.html, error.csv and error.json [default: galpix-out/error; with --json nothing is written without it]
+    /// Folder for error.html, error.csv and error.json [default: galpix-out/error; with --json nothing is written
+    /// without it]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON

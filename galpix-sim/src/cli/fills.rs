@@ -15,10 +15,12 @@ use crate::study::job::Request;
 /// Arguments of `galpix fills`.
 #[derive(Debug, Args)]
 pub struct Fills {
-    /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture marbles]
+    /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture
+    /// marbles]
     #[arg(value_name = "SOURCE")]
     sources: Vec<String>,
-    /// Fills to compare [default: all of none, hold, debris, bullet, galdebris, extend, push-pull-classic, push-pull, metamer]
+    /// Fills to compare [default: all of none, hold, debris, bullet, galdebris, extend, push-pull-classic, push-pull,
+    /// metamer]
     #[arg(long, value_name = "FILLS", value_delimiter = ',')]
     fills: Vec<String>,
     #[command(flatten)]
@@ -29,8 +31,8 @@ pub struct Fills {
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
-    /// Folder for fills.html, fills.csv, fills.json, and each picture with its mask and its truth, listed in index.json [default:
-    /// galpix-out/fills; with --json nothing is written without it]
+    /// Folder for fills.html, fills.csv, fills.json, and each picture with its mask and its truth, listed in index.json
+    /// [default: galpix-out/fills; with --json nothing is written without it]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON

@@ -13,7 +13,8 @@ use crate::study::layers::{self, Plan};
 /// Arguments of `galpix layers`.
 #[derive(Debug, Args)]
 pub struct LayersArguments {
-    /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture marbles]
+    /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture
+    /// marbles]
     #[arg(value_name = "SOURCE")]
     sources: Vec<String>,
     /// Frames to extrapolate [default: what the source is meant for]
@@ -25,7 +26,8 @@ pub struct LayersArguments {
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
-    /// Folder for layers.html, layers.csv and layers.json [default: galpix-out/layers; with --json nothing is written without it]
+    /// Folder for layers.html, layers.csv and layers.json [default: galpix-out/layers; with --json nothing is written
+    /// without it]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON

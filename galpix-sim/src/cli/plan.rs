@@ -7,7 +7,7 @@ use clap::Args;
 use super::choices::{AccelerationChoice, pixels};
 use super::{CliError, print, print_json, printable};
 use crate::source::Source;
-use crate::study::job::{Job, Request};
+use crate::study::job::Request;
 use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
 
 /// Arguments of `galpix plan`.
@@ -54,7 +54,6 @@ impl PlanArguments {
             perceptual: false,
             ..Request::default()
         };
-        Job::resolve(&source, &request).map_err(CliError::unusable)?;
         let tighter = self.tighter.unwrap_or(self.max_error / 4.0);
         let planning = plan::plan(&source, &request, self.max_error, tighter).map_err(|error| match error {
             PlanError::Engine(_) => CliError::Failed(error.to_string()),

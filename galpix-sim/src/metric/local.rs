@@ -1,5 +1,6 @@
 //! How rough a picture is around some cells, and how much it changes there from frame to frame.
 
+use super::stats::mean;
 use super::{comparable, counts, luma, with_truth_where_not_counted};
 use crate::picture::Picture;
 
@@ -37,11 +38,6 @@ pub fn change(before: &Picture, after: &Picture, counted: Option<&[bool]>) -> Op
     comparable(before, after, counted)?;
     let pairs = before.pixels.iter().zip(&after.pixels).enumerate();
     mean(pairs.filter(|&(cell, _)| counts(counted, cell)).map(|(_, (a, b))| (luma(a) - luma(b)).abs()))
-}
-
-fn mean(figures: impl Iterator<Item = f64>) -> Option<f64> {
-    let (sum, count) = figures.fold((0.0, 0.0), |(sum, count), figure| (sum + figure, count + 1.0));
-    (count > 0.0).then(|| sum / count)
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! The cells that are judged: those of the display that no galpixel of the update reached, by the warp alone, whatever is put
-//! into them. Those connected with the border are apart: what enters the picture was never seen beside anything.
+//! The cells that are judged: those of the display that no galpixel of the update reached, by the warp alone, whatever
+//! is put into them. Those connected with the border are apart: what enters the picture was never seen beside anything.
 
 use galpix_core::FillMode;
 

@@ -78,6 +78,12 @@ impl Default for Request {
 }
 
 impl Request {
+    /// Returns the frames to extrapolate: those asked for, else the source's own number.
+    #[must_use]
+    pub fn frames(&self, source: &Source) -> u32 {
+        self.frames.unwrap_or(source.frames())
+    }
+
     /// Returns the demand that is made for an update over so many frames.
     #[must_use]
     pub fn demand(&self, update: &Update, frames: u32) -> Demand {
@@ -132,8 +138,8 @@ impl<'s> Job<'s> {
         Self::with_layout(source, request, layout_for)
     }
 
-    /// Resolves what is asked of a source, with galpixels that carry what `layout` says of its update. Without acceleration
-    /// its widths are those of [`Bits::derive_without_acceleration`].
+    /// Resolves what is asked of a source, with galpixels that carry what `layout` says of its update. Without
+    /// acceleration its widths are those of [`Bits::derive_without_acceleration`].
     ///
     /// *Errors:* a budget that cannot exist.
     pub fn with_layout(
@@ -142,7 +148,7 @@ impl<'s> Job<'s> {
         layout: impl FnOnce(&Update) -> Layout,
     ) -> Result<Self, ExperimentError> {
         let update = Arc::new(source.update());
-        let frames = request.frames.unwrap_or(source.frames());
+        let frames = request.frames(source);
         let demand = request.demand(&update, frames);
         let layout = layout(&update);
         let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };

@@ -5,9 +5,9 @@
 //!                                                    └─▶ Document ─▶ json
 //! ```
 //!
-//! A [`Study`] says what is particular to it; the driver of the command line opens the sources, shows progress, prints and
-//! writes. No study imports another: what several of them use stands beside them, in [`crops`], [`holes`], [`ink`], [`job`],
-//! [`run`] and [`timing`].
+//! A [`Study`] says what is particular to it; the driver of the command line opens the sources, shows progress, prints
+//! and writes. No study imports another: what several of them use stands beside them, in [`crops`], [`holes`], [`ink`],
+//! [`job`], [`run`] and [`timing`].
 
 pub mod crops;
 pub mod ddoc;

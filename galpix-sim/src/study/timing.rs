@@ -1,9 +1,9 @@
 //! The time of a frame: every contender in turn, each between two copies of as many bytes as its map has.
 //!
-//! A round takes each contender once: the update is loaded (not timed), memory is copied, the frames are stepped and timed
-//! one by one, memory is copied again. The time of a round is the median over its frames, its ratio that by the mean of the
-//! two copies; what is told is the median over the rounds, the first of which warms up. Times are this thread's processor
-//! time.
+//! A round takes each contender once: the update is loaded (not timed), memory is copied, the frames are stepped and
+//! timed one by one, memory is copied again. The time of a round is the median over its frames, its ratio that by the
+//! mean of the two copies; what is told is the median over the rounds, the first of which warms up. Times are this
+//! thread's processor time.
 
 use std::hint::black_box;
 use std::time::Duration;

@@ -1,8 +1,8 @@
 //! Animated PNG, as small as lossless permits.
 //!
-//! After the first frame only the rectangle that changed is stored, and inside it what did not change may be stored as a
-//! transparent code, which compresses to almost nothing. Which of the two, and which row filter, is tried out for each
-//! frame. Source: the PNG specification, third edition (fcTL, fdAT, tRNS).
+//! After the first frame only the rectangle that changed is stored, and inside it what did not change may be stored as
+//! a transparent code, which compresses to almost nothing. Which of the two, and which row filter, is tried out for
+//! each frame. Source: the PNG specification, third edition (fcTL, fdAT, tRNS).
 
 use super::palette::{self, Coded};
 use crate::picture::Picture;
@@ -53,8 +53,8 @@ pub fn apng(frames: &[Picture], delay_ms: u16, colours: Colours) -> Result<Vec<u
     write(&coded, &patches, [width, height], delay_ms, EFFORT)
 }
 
-/// [`apng`] with [`Colours::Exact`] if that takes at most `most_bytes`, else with [`Colours::Palette`] whatever that takes;
-/// says which it was.
+/// [`apng`] with [`Colours::Exact`] if that takes at most `most_bytes`, else with [`Colours::Palette`] whatever that
+/// takes; says which it was.
 pub fn apng_within(frames: &[Picture], delay_ms: u16, most_bytes: usize) -> Result<(Vec<u8>, Colours), FilmError> {
     let exact = apng(frames, delay_ms, Colours::Exact)?;
     if exact.len() <= most_bytes {
@@ -117,8 +117,8 @@ impl Patch {
         smallest.map(|(_, patch)| patch).ok_or(FilmError::Nothing)
     }
 
-    /// The rectangle of frame `n` that differs from `before` (all of it without one, one pixel if nothing differs). With
-    /// `clear`, pixels in it that do not differ are that code.
+    /// The rectangle of frame `n` that differs from `before` (all of it without one, one pixel if nothing differs).
+    /// With `clear`, pixels in it that do not differ are that code.
     fn cut(film: &Coded, film_width: usize, n: usize, before: Option<&[u8]>, clear: Option<&Vec<u8>>) -> Self {
         let (frame, depth) = (film.frames[n].as_slice(), film.depth);
         let pixel = |cell: usize| cell * depth..(cell + 1) * depth;
@@ -174,7 +174,8 @@ fn write(film: &Coded, patches: &[Patch], size: [usize; 2], delay_ms: u16, effor
     Ok(bytes)
 }
 
-/// The tRNS chunk that makes the code `clear` transparent: opacity of each index up to it, or the colour in 16-bit samples.
+/// The tRNS chunk that makes the code `clear` transparent: opacity of each index up to it, or the colour in 16-bit
+/// samples.
 fn transparency(clear: &[u8]) -> Vec<u8> {
     match clear {
         &[index] => {

@@ -1,6 +1,7 @@
 //! Pictures of pictures: panels beside each other with labels, a difference made visible, and films of them.
 //!
-//! A film is an animated PNG ([`apng()`]): every browser plays it, it is lossless, and one `<img>` shows it without a script.
+//! A film is an animated PNG ([`apng()`]): every browser plays it, it is lossless, and one `<img>` shows it without a
+//! script.
 
 mod apng;
 mod label;
@@ -44,7 +45,8 @@ pub fn grid(panels: &[&Picture], columns: usize, gap: usize) -> Picture {
     sheet
 }
 
-/// The absolute difference of each channel, enlarged [`DIFFERENCE_GAIN`] times and cut at 255: identical cells are black.
+/// The absolute difference of each channel, enlarged [`DIFFERENCE_GAIN`] times and cut at 255: identical cells are
+/// black.
 ///
 /// Has the size of `truth`; a cell that `shown` lacks is white, so that a wrong size is seen and not hidden.
 #[must_use]

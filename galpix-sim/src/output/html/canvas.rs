@@ -1,4 +1,5 @@
-//! What the plots share: their resolution, their pens, and axes with chosen ticks. Only the plots and this file know `plotters`.
+//! What the plots share: their resolution, their pens, and axes with chosen ticks. Only the plots and this file know
+//! `plotters`.
 
 use super::axis::Axis;
 use super::style::Ink;
@@ -20,8 +21,8 @@ pub fn pen(ink: Ink, width: u32) -> ShapeStyle {
     colour(ink).stroke_width(width * FINE)
 }
 
-/// A drawing of `width` x `height` units of the page as an element of a page, with its own opening tag instead of the backend's, which fixes
-/// a size and names a namespace that HTML does not need.
+/// A drawing of `width` x `height` units of the page as an element of a page, with its own opening tag instead of the
+/// backend's, which fixes a size and names a namespace that HTML does not need.
 pub fn element(drawing: &str, width: u32, height: u32, description: &str) -> Option<String> {
     let body = drawing.split_once('>')?.1;
     Some(format!(

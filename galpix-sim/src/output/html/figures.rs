@@ -1,15 +1,17 @@
 //! Which lines the plots of a story have.
 
+use maud::{Markup, PreEscaped, html};
+
+use super::page::line_key;
 use super::plot::{Line, Plot, Stroke, svg};
 use super::style::Ink;
 use super::text::Text;
 use super::{Row, Story};
 use crate::metric::PSNR_CAP_DB;
 
-/// The plots of a story, each a `<figure>` with its legend: PSNR, position error, tallies.
-pub fn figures(story: &Story) -> String {
-    let parts = [quality(story), position(story), tallies(story)];
-    format!("<div class=\"plots\">{}</div>", parts.concat())
+/// Returns the plots of a story, each a `<figure>` with its legend: PSNR, position error, tallies.
+pub fn figures(story: &Story) -> Markup {
+    html! { div.plots { (quality(story)) (position(story)) (tallies(story)) } }
 }
 
 /// A line through one column of the rows.
@@ -18,7 +20,7 @@ fn line(story: &Story, name: &str, ink: Ink, stroke: Stroke, column: impl Fn(&Ro
     Line { name: name.to_owned(), ink, stroke, points }
 }
 
-fn quality(story: &Story) -> String {
+fn quality(story: &Story) -> Markup {
     let lines = vec![
         line(story, "sample-and-hold", Ink::Hold, Stroke::Solid, |row| row.psnr_hold_db),
         line(story, "galpix, cells reached", Ink::Known, Stroke::Dashed, |row| row.psnr_known_db),
@@ -32,7 +34,7 @@ fn quality(story: &Story) -> String {
     figure(story, ["PSNR", "dB"], [&remark, "No truth to compare with."], lines, false)
 }
 
-fn position(story: &Story) -> String {
+fn position(story: &Story) -> Markup {
     let mut lines = Vec::new();
     let measured = |row: &Row| row.position_error_px.or(row.mean_position_error_px);
     let mut remark = "How far galpixels are from where they should be, before the snap to a cell.".to_owned();
@@ -56,7 +58,7 @@ fn position(story: &Story) -> String {
     figure(story, ["Position error", "px"], [&remark, nothing], lines, true)
 }
 
-fn tallies(story: &Story) -> String {
+fn tallies(story: &Story) -> Markup {
     let lines = vec![
         line(story, "collided", Ink::Collided, Stroke::Dashed, |row| Some(row.collided as f64)),
         line(story, "lost at the border", Ink::Lost, Stroke::Dashed, |row| Some(row.lost as f64)),
@@ -67,31 +69,33 @@ fn tallies(story: &Story) -> String {
     figure(story, ["Tallies", "cells"], [remark, "No frame was counted."], lines, true)
 }
 
-/// A figure with its title and unit, and what is said under it, or instead where there is nothing to draw.
+/// Returns a figure with its title and unit, and what is said under it, or instead where there is nothing to draw.
 fn figure(
     story: &Story,
     [title, unit]: [&str; 2],
     [remark, nothing]: [&str; 2],
     mut lines: Vec<Line>,
     from_zero: bool,
-) -> String {
+) -> Markup {
     lines.retain(|line| !line.is_empty());
-    let legend: String = lines.iter().rev().map(key).collect();
+    let legend = html! {
+        @for line in lines.iter().rev() { (line_key(&line.name, line.ink, line.stroke == Stroke::Dashed)) }
+    };
     let description = format!("{}: {title} in {unit} over frames since the update", story.name);
     let cap = if from_zero { f64::INFINITY } else { PSNR_CAP_DB };
-    let drawing = match svg(&Plot { description, lines, from_zero, cap }) {
-        Some(drawing) => format!("{drawing}<p class=\"axis\">frames since the update</p>"),
-        None => return format!("<figure><h3>{title}</h3><p class=\"nothing\">{}</p></figure>", Text(nothing)),
-    };
-    format!(
-        "<figure><h3>{title} <small>{unit}</small></h3><p class=\"legend\">{legend}</p>{drawing}\
-         <figcaption>{}</figcaption></figure>",
-        Text(remark)
-    )
-}
-
-/// One entry of a legend.
-fn key(line: &Line) -> String {
-    let kind = if line.stroke == Stroke::Dashed { "key dashed" } else { "key" };
-    format!("<span><i class=\"{kind}\" style=\"--ink:var(--{})\"></i>{}</span> ", line.ink.name(), Text(&line.name))
+    let drawing = svg(&Plot { description, lines, from_zero, cap });
+    html! {
+        figure {
+            @match drawing {
+                None => { h3 { (title) } p.nothing { (Text(nothing)) } },
+                Some(drawing) => {
+                    h3 { (title) " " small { (unit) } }
+                    p.legend { (legend) }
+                    (PreEscaped(drawing))
+                    p.axis { "frames since the update" }
+                    figcaption { (Text(remark)) }
+                },
+            }
+        }
+    }
 }

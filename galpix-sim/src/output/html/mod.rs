@@ -1,7 +1,7 @@
 //! The report: one self-contained HTML page with animated pictures, plots and tables.
 //!
-//! Nothing is loaded from anywhere: pictures are data URIs, plots are inline SVG, the style is in the page. It reads without
-//! a script; a small one adds play, pause and stepping to the films.
+//! Nothing is loaded from anywhere: pictures are data URIs, plots are inline SVG, the style is in the page. It reads
+//! without a script; a small one adds play, pause and stepping to the films.
 //!
 //! ```text
 //! Report ─▶ report (page: head, facts) ─▶ overview (one line a scene)
@@ -22,6 +22,8 @@ pub(crate) mod style;
 pub(crate) mod text;
 
 pub use super::save::write_atomically;
+pub(crate) use overview::cell;
+pub(crate) use page::line_key;
 pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
 pub use report::html;
 

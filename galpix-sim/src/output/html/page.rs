@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{Markup, PreEscaped, html};
 
-use super::style::sheet;
+use super::style::{Ink, sheet};
 use super::text::Text;
 use crate::picture::Picture;
 
@@ -98,6 +98,12 @@ pub fn source(head: &Head<'_>, body: &Markup) -> Markup {
             (body)
         }
     }
+}
+
+/// Returns a line in a legend.
+pub(crate) fn line_key(name: &str, ink: Ink, dashed: bool) -> Markup {
+    let kind = if dashed { "key dashed" } else { "key" };
+    html! { span { i class=(kind) style={ "--ink:var(--" (ink.name()) ")" } {} (Text(name)) } " " }
 }
 
 /// Returns a plot with its title and what is said of it, or that there is nothing to draw; `drawing` is an SVG element.

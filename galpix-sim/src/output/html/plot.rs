@@ -70,8 +70,8 @@ pub fn svg(plot: &Plot) -> Option<String> {
     element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
-/// The same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below, and those more
-/// than [`MOST_DECADES`] powers of ten below the largest, are drawn at its lower end.
+/// The same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below, and those
+/// more than [`MOST_DECADES`] powers of ten below the largest, are drawn at its lower end.
 pub fn svg_log(plot: &Plot) -> Option<String> {
     let frames = frame_range(plot)?;
     let (lowest, highest) = decades(plot)?;
@@ -209,8 +209,8 @@ where
     Ok(drawing)
 }
 
-/// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5 times
-/// a power of ten.
+/// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5
+/// times a power of ten.
 fn decimals(span: f64) -> usize {
     (-(span / 6.0).log10().floor()).clamp(0.0, 6.0) as usize
 }

@@ -2,7 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::figures::figures;
 use super::overview::{Standing, Summary};
@@ -25,7 +25,7 @@ pub fn section(index: usize, story: &Story) -> Markup {
             }
             @if !story.film_apng.is_empty() { (film(story)) }
             @if let Some(certificate) = &story.certificate { (promise(certificate, &Summary::of(story))) }
-            (PreEscaped(figures(story)))
+            (figures(story))
             @if !story.notes.is_empty() { (list(&story.notes)) }
             (table(story))
             p.up { a href="#overview" { "to the overview" } }

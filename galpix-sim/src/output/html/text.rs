@@ -60,7 +60,8 @@ pub fn count(value: u64) -> String {
     grouped
 }
 
-/// The fragment that leads to story `index` (0 is the first): letters and digits of its name, made unique by its number.
+/// The fragment that leads to story `index` (0 is the first): letters and digits of its name, made unique by its
+/// number.
 pub fn anchor(index: usize, name: &str) -> String {
     let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
     format!("scene-{}-{}", index + 1, letters.collect::<String>().trim_matches('-'))

@@ -46,8 +46,8 @@ impl HiddenSample {
 /// Nodes of a mesh a pixel: denser than the picture, so that what is moved apart stays closed.
 const DENSITY: usize = 2;
 
-/// The DDOC image of `scene` at its update, t = 0, over its whole map, wings included: one sample for each cell in which it
-/// has anything, row by row. Depths of `settings` are words of [`distortion::DEPTH_BITS`].
+/// The DDOC image of `scene` at its update, t = 0, over its whole map, wings included: one sample for each cell in
+/// which it has anything, row by row. Depths of `settings` are words of [`distortion::DEPTH_BITS`].
 ///
 /// *Errors:* a scene that is too large for a map.
 pub fn hidden(scene: &dyn Scene, settings: &Settings) -> Result<(Vec<HiddenSample>, Tally), SetupError> {

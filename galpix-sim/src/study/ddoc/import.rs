@@ -1,8 +1,8 @@
 //! Objects from Wavefront OBJ files: put on a stage, with a floor and a wall behind.
 //!
-//! An object is turned upright (OBJ has y up, this world y down), scaled so that its largest side is [`SIDE`] and set down on the
-//! floor at distance [`DISTANCE`]. Colours are those of its corners, or of its materials, or grey; a light from the left above
-//! shades its faces, for files have no texture here.
+//! An object is turned upright (OBJ has y up, this world y down), scaled so that its largest side is [`SIDE`] and set
+//! down on the floor at distance [`DISTANCE`]. Colours are those of its corners, or of its materials, or grey; a light
+//! from the left above shades its faces, for files have no texture here.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -44,10 +44,11 @@ pub fn is_object(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
 
-/// The object in an OBJ file, on the stage. Its material files are looked for in its own folder only; without them it is grey.
+/// The object in an OBJ file, on the stage. Its material files are looked for in its own folder only; without them it
+/// is grey.
 ///
-/// *Errors:* a file that cannot be read or parsed, that has no triangle with an area, more than [`MOST_TRIANGLES`], a corner that
-/// is no finite number, or a face with a corner that is not there.
+/// *Errors:* a file that cannot be read or parsed, that has no triangle with an area, more than [`MOST_TRIANGLES`], a
+/// corner that is no finite number, or a face with a corner that is not there.
 pub fn obj(file: &Path) -> Result<World, ImportError> {
     let error = |what: String, mend: &'static str| ImportError { file: file.to_path_buf(), what, mend };
     let opened =

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 /// Two samples are the same if their inverse distances differ by no more than this share.
 const SAME: f32 = 0.03;
 
-/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample but a part of
-/// an outline, which no image of samples has more exactly.
+/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample but
+/// a part of an outline, which no image of samples has more exactly.
 pub const TOLERANCE: usize = 1;
 
 /// What the frames of one view lack.
@@ -28,7 +28,8 @@ pub struct Missing {
     pub strict: Vec<u32>,
 }
 
-/// Where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds the same depth.
+/// Where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds the same
+/// depth.
 #[must_use]
 pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -> Vec<bool> {
     let (width, height) = (truth.width, truth.height);

@@ -1,5 +1,5 @@
-//! The depth discontinuity occlusion camera on worlds of triangles: reference images, frames warped from them, and what those
-//! frames lack. The distortion is `galpix_core::ddoc`'s; what is drawn with it is drawn here.
+//! The depth discontinuity occlusion camera on worlds of triangles: reference images, frames warped from them, and what
+//! those frames lack. The distortion is `galpix_core::ddoc`'s; what is drawn with it is drawn here.
 //!
 //! ```text
 //! scene, file ─▶ world ─▶ reference (plain, DDOC) ─▶ warp ─▶ missing ─▶ report, pictures, page
@@ -45,8 +45,8 @@ use crate::source::scene;
 /// The sides of reference images that are possible, pixels.
 pub const SIZES: std::ops::RangeInclusive<usize> = 64..=2048;
 
-/// The mesh of samples is cut where the inverse distance changes by this part of its range over a 512th of the image: a pixel of an
-/// image of 512.
+/// The mesh of samples is cut where the inverse distance changes by this part of its range over a 512th of the image: a
+/// pixel of an image of 512.
 pub const STEP: f32 = 1.0 / 64.0;
 
 /// How an image is taken.
@@ -76,8 +76,9 @@ impl Request {
 
     /// What joins the samples of the plain image, and of the DDOC image.
     ///
-    /// The first are a pixel apart. The second are squeezed, at most by twice the asymmetry along the distortion; and the
-    /// direction of neighbouring splats differs by a little, which moves what is far from the edge by some pixels more.
+    /// The first are a pixel apart. The second are squeezed, at most by twice the asymmetry along the distortion; and
+    /// the direction of neighbouring splats differs by a little, which moves what is far from the edge by some pixels
+    /// more.
     #[must_use]
     pub fn joints(&self) -> [Joint; 2] {
         let step = STEP * 512.0 / self.size as f32;

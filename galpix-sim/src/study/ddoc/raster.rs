@@ -31,8 +31,8 @@ impl<const N: usize> Raster<N> {
         Self { width, height, nearness: vec![0.0; width * height], carried: vec![[0.0; N]; width * height] }
     }
 
-    /// Draws a triangle: the pixels whose middles are in it or on its border, where nothing as near has been drawn before. A
-    /// triangle without an area, or with a place that is no number, is nothing.
+    /// Draws a triangle: the pixels whose middles are in it or on its border, where nothing as near has been drawn
+    /// before. A triangle without an area, or with a place that is no number, is nothing.
     pub fn draw(&mut self, [a, b, c]: [&Pin<N>; 3]) {
         let across = |axis: usize| {
             let [a, b, c] = [a.at[axis], b.at[axis], c.at[axis]];

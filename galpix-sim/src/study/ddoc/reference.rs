@@ -96,8 +96,8 @@ struct SeenBy<'m> {
     reach: f64,
 }
 
-/// Draws a triangle with the DDOC: halves it along its longest edge until none is longer than a pixel in the plain image, then
-/// moves its corners (equation 1).
+/// Draws a triangle with the DDOC: halves it along its longest edge until none is longer than a pixel in the plain
+/// image, then moves its corners (equation 1).
 fn subdivide(raster: &mut Raster<5>, by: &SeenBy<'_>, corners: &[Corner; 3], pins: &[Pin<5>; 3]) {
     let SeenBy { map, view, near, reach } = *by;
     // What is nowhere near the picture is not moved into it.

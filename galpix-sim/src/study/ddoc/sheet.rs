@@ -1,5 +1,5 @@
-//! Each surface of a built-in scene on its own, as a mesh: all that the reference eye would see of it if nothing else were
-//! there, and what it would see of its back.
+//! Each surface of a built-in scene on its own, as a mesh: all that the reference eye would see of it if nothing else
+//! were there, and what it would see of its back.
 
 use crate::source::scene::surface::{Hit, Surface};
 
@@ -31,8 +31,8 @@ impl Lattice {
     }
 }
 
-/// The mesh of a surface at time `t`: triangles between neighbouring nodes that are all on it, and, where it has a back, the
-/// back's, and a rim that closes what is between the two.
+/// The mesh of a surface at time `t`: triangles between neighbouring nodes that are all on it, and, where it has a
+/// back, the back's, and a rim that closes what is between the two.
 pub fn triangles(surface: &dyn Surface, lattice: &Lattice, t: f64, mut draw: impl FnMut([&Node; 3])) {
     let [columns, rows] = lattice.size;
     let nodes = |back: bool| -> Vec<Option<Node>> {

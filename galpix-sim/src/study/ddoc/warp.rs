@@ -9,8 +9,8 @@ use super::view::View;
 pub struct Joint {
     /// The inverse distance may change by this much from a pixel of the plain image to the next.
     pub step: f32,
-    /// Neighbours may have been this far apart in the plain image, pixels: what is squeezed by twice the asymmetry, and a
-    /// little more.
+    /// Neighbours may have been this far apart in the plain image, pixels: what is squeezed by twice the asymmetry, and
+    /// a little more.
     pub reach: f32,
 }
 

@@ -21,8 +21,8 @@ pub struct World {
     pub half_side: f64,
 }
 
-/// Pixels of a built-in scene's display from its middle to the border of the reference view: the focal length of the lens that
-/// most of them have.
+/// Pixels of a built-in scene's display from its middle to the border of the reference view: the focal length of the
+/// lens that most of them have.
 const HALF_FIELD: f64 = 170.0;
 
 /// How much wider than the reference view the meshes of a scene reach: views from beside it see some more.
@@ -66,7 +66,8 @@ impl World {
         self
     }
 
-    /// A built-in scene at its update, as its own eye sees it: each surface as a mesh with its hidden parts and its back.
+    /// A built-in scene at its update, as its own eye sees it: each surface as a mesh with its hidden parts and its
+    /// back.
     #[must_use]
     pub fn of_scene(scene: &dyn Scene) -> Self {
         let mut world = Self::new(scene.name(), scene.about(), 0.0);

@@ -1,5 +1,5 @@
-//! Worlds made for the DDOC, and the stage for objects from files: after the paper's own examples, a portal through which
-//! rows of seats are seen, and one object with many folds before a wall.
+//! Worlds made for the DDOC, and the stage for objects from files: after the paper's own examples, a portal through
+//! which rows of seats are seen, and one object with many folds before a wall.
 
 use std::f64::consts::{PI, TAU};
 

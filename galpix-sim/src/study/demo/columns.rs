@@ -1,5 +1,5 @@
-//! The columns of the table, a line a scene: means over the frames whose truth is known, and the worst position error of all
-//! frames.
+//! The columns of the table, a line a scene: means over the frames whose truth is known, and the worst position error
+//! of all frames.
 
 use super::Told;
 use crate::metric::stats::mean;

@@ -1,10 +1,11 @@
 //! The error of one configuration, frame by frame, split into its causes.
 //!
-//! A shown galpixel is away from its true place by a sum of steps: true motion → exact second-order path (*Taylor*: what
-//! second order cannot know) → exact path of the lanes kept (*left out*) → the path of what was stored (*quantisation*) → where
-//! the engine is (*drift*; for galpixels that a range stopped: *saturation*) → the cell that shows it (*snap*). Of each step
-//! the mean over the galpixels is told, of each galpixel the worse of x and y; since steps may cancel, they add up to at least
-//! the error as a whole. What nothing reached is no place but a hole: holes are told in the squared error of the picture.
+//! A shown galpixel is away from its true place by a sum of steps: true motion → exact second-order path (*Taylor*:
+//! what second order cannot know) → exact path of the lanes kept (*left out*) → the path of what was stored
+//! (*quantisation*) → where the engine is (*drift*; for galpixels that a range stopped: *saturation*) → the cell that
+//! shows it (*snap*). Of each step the mean over the galpixels is told, of each galpixel the worse of x and y; since
+//! steps may cancel, they add up to at least the error as a whole. What nothing reached is no place but a hole: holes
+//! are told in the squared error of the picture.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
 use serde::Serialize;
@@ -39,7 +40,8 @@ pub struct FrameCauses {
     pub all_px: f64,
     /// Cells that no galpixel of the update reached, per cent of the display.
     pub missing_percent: f64,
-    /// The squared error of the picture in cells that a galpixel reached, as a part of the mean over all cells (code values²).
+    /// The squared error of the picture in cells that a galpixel reached, as a part of the mean over all cells (code
+    /// values²).
     pub mse_reached: Option<f64>,
     /// The same in cells that nothing reached.
     pub mse_missing: Option<f64>,
@@ -134,8 +136,8 @@ fn places(
     }
 }
 
-/// The squared error per channel of the cells that were reached, and of those that were not, each by the number of all cells
-/// that count: together they are the mean squared error.
+/// The squared error per channel of the cells that were reached, and of those that were not, each by the number of all
+/// cells that count: together they are the mean squared error.
 fn squares(picture: &Picture, truth: &Truth, reached: &[bool]) -> [f64; 2] {
     let (mut sums, mut cells) = ([0.0; 2], 0u64);
     for (index, (shown, is)) in picture.pixels.iter().zip(&truth.picture.pixels).enumerate() {

@@ -1,6 +1,7 @@
 //! The columns of the points: a line a point, and in the CSV one for sample-and-hold of each source.
 
-use super::report::{Point, Scheme, SourceReport, Summary};
+use super::frames::Summary;
+use super::report::{Point, Scheme, SourceReport};
 use crate::output::column::{Column, Value};
 use crate::study::timing::Time;
 

@@ -1,4 +1,5 @@
-//! Which configurations are measured: one axis at a time around the default, and the combinations that may lie on a front.
+//! Which configurations are measured: one axis at a time around the default, and the combinations that may lie on a
+//! front.
 
 use galpix_core::record::Component;
 use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding};
@@ -157,7 +158,8 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// Around what one axis at a time is varied: the richest lanes and rung, and the default rounding where it may be chosen.
+    /// Around what one axis at a time is varied: the richest lanes and rung, and the default rounding where it may be
+    /// chosen.
     #[must_use]
     pub fn middle(&self) -> Configuration {
         let rounding = Rounding::default();

@@ -2,9 +2,10 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::legend::{block_key, ink, key, line_key, radius, shape};
+use super::legend::{block_key, ink, key, radius, shape};
 use super::report::{Point, Scheme, SourceReport};
 use crate::output::html::axis::Scale;
+use crate::output::html::line_key;
 use crate::output::html::scatter::{self, Course, Mark, Scatter, Shape};
 use crate::output::html::stack::{self, Layer, Stack};
 use crate::output::html::style::Ink;

@@ -1,8 +1,9 @@
 //! The same scheme in 32-bit floats: what one would build without a bit budget. It is meant to be a fair opponent.
 //!
-//! A pixel is a packed struct of exactly the lanes that it needs (24 bytes with velocity in x and y, 40 with everything but
-//! the luminosity); position and velocity take the same step as in the engine, the nearer wins and the smaller source wins
-//! a tie, and holes are left black (`none`) or keep what was shown (`hold`). The rungs that tell surfaces apart are not built.
+//! A pixel is a packed struct of exactly the lanes that it needs (24 bytes with velocity in x and y, 40 with everything
+//! but the luminosity); position and velocity take the same step as in the engine, the nearer wins and the smaller
+//! source wins a tie, and holes are left black (`none`) or keep what was shown (`hold`). The rungs that tell surfaces
+//! apart are not built.
 
 use std::mem::size_of;
 

@@ -5,6 +5,7 @@ use maud::{Markup, PreEscaped, html};
 
 use super::report::{Point, Scheme, SourceReport};
 use crate::engine::fill::Fill;
+use crate::output::html::line_key;
 use crate::output::html::scatter::{self, Shape};
 use crate::output::html::style::Ink;
 use crate::output::html::text::Text;
@@ -36,12 +37,6 @@ const fn rounding_shape(rounding: Rounding) -> Shape {
 /// The area of a mark grows with the bytes.
 pub fn radius(bytes: usize) -> f64 {
     1.35 * (bytes as f64).sqrt()
-}
-
-/// Returns a line in a legend.
-pub fn line_key(name: &str, ink: Ink, dashed: bool) -> Markup {
-    let kind = if dashed { "key dashed" } else { "key" };
-    html! { span { i class=(kind) style={ "--ink:var(--" (ink.name()) ")" } {} (Text(name)) } " " }
 }
 
 /// Returns a layer in a legend.

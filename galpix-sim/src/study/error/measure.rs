@@ -4,9 +4,9 @@ use galpix_core::{Bits, Dynamic, Layout, Settings};
 
 use super::design::Configuration;
 use super::float;
+use super::frames::{FrameError, PictureError};
 use super::ranges::Stored;
 use super::reference::{Reference, way};
-use super::report::{FrameError, PictureError};
 use crate::engine::{Engine, EngineError, LoadTally};
 use crate::metric;
 use crate::picture::Picture;

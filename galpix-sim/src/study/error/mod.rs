@@ -14,6 +14,7 @@ mod columns;
 pub mod design;
 mod figures;
 pub mod float;
+pub mod frames;
 mod legend;
 pub mod measure;
 mod page;
@@ -36,9 +37,10 @@ use crate::output::column;
 use crate::source::Source;
 use crate::update::{Known, Update};
 use design::{Axes, Configuration, Extent, Kept, Step};
+use frames::Summary;
 use ranges::Ranges;
 use reference::Reference;
-use report::{DemandReport, Fronts, Point, Scheme, SourceReport, Summary};
+use report::{DemandReport, Fronts, Point, Scheme, SourceReport};
 
 /// What to measure.
 #[derive(Clone, Debug)]
@@ -95,8 +97,8 @@ impl Study for Plan {
 }
 
 impl Plan {
-    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the others
-    /// have a budget too.
+    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the
+    /// others have a budget too.
     ///
     /// *Errors:* a demand or lanes that give no budget.
     fn job<'s>(&self, source: &'s Source) -> Result<Job<'s>, ExperimentError> {
@@ -139,7 +141,7 @@ impl Run<'_> {
 /// Measures a source; `tell` is told how it gets on.
 fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
     let Job { source, frames, demand, .. } = *job;
-    let reference = Reference::new(source, frames);
+    let reference = Reference::with_update(source, job.update.clone(), frames);
     let update = &reference.update;
     let axes = plan.axes(update);
     let cells = update.samples.len();

@@ -6,7 +6,8 @@ use galpix_core::{Bits, BudgetError, Dynamic, FillMode, Format, Record, Rounding
 use rayon::prelude::*;
 
 use super::design::{Configuration, Kept, Step};
-use super::report::{FrameError, Point, Scheme, Summary};
+use super::frames::{FrameError, Summary};
+use super::report::{Point, Scheme};
 use super::{Run, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::engine::fill::Fill;
@@ -154,7 +155,8 @@ impl Run<'_> {
         Point { bytes, used_bits, ..point(Scheme::F32, configuration, measured.frames) }
     }
 
-    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each rung, floats.
+    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each rung,
+    /// floats.
     fn time(
         &self,
         candidates: &[Candidate],
@@ -183,7 +185,8 @@ impl Run<'_> {
             let kind = (stand_in.name(), candidate.configuration.rung);
             if !fixed.contains(&kind) {
                 fixed.push(kind);
-                // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another number.
+                // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another
+                // number.
                 let settings = self.settings(&candidate.configuration, &stand_in.record);
                 let inpaint = candidate.configuration.rung.inpaint();
                 makers.push(Box::new(move || stand_in.contender(update, settings, inpaint)));

@@ -33,8 +33,8 @@ impl Ranges {
         ranges
     }
 
-    /// The component without the integer bits that nothing in the update uses. `bins` is the logarithm of the units of a
-    /// whole range: 0 in the plane, the bits of the depth's bins in depth.
+    /// The component without the integer bits that nothing in the update uses. `bins` is the logarithm of the units of
+    /// a whole range: 0 in the plane, the bits of the depth's bins in depth.
     #[must_use]
     pub fn fit(&self, component: Component, axis: usize, bins: u32, layout: Layout) -> Component {
         let unit = f64::from(1u32 << bins.min(31));
@@ -55,8 +55,8 @@ fn integer_bits(magnitude: f64, frac: u32) -> u32 {
     (1..31).find(|&bits| magnitude <= f64::from(1u32 << (bits - 1)) - last_bit).unwrap_or(31)
 }
 
-/// The velocity and the acceleration of a sample as a component stores them, and whether both fit their fields for `frame`
-/// frames: outside of that, the galpixel saturates.
+/// The velocity and the acceleration of a sample as a component stores them, and whether both fit their fields for
+/// `frame` frames: outside of that, the galpixel saturates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
     /// Pixels a frame.

@@ -1,7 +1,9 @@
-//! What galpixels buy: an update every N frames with the display moving between, beside sample-and-hold at the same rates.
+//! What galpixels buy: an update every N frames with the display moving between, beside sample-and-hold at the same
+//! rates.
 //!
-//! A scene is rendered anew at every N-th frame; the picture of an update itself is without error, so that every frame of
-//! the display counts once at each rate. A capture has one update: it is held against its true pictures by age instead.
+//! A scene is rendered anew at every N-th frame; the picture of an update itself is without error, so that every frame
+//! of the display counts once at each rate. A capture has one update: it is held against its true pictures by age
+//! instead.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -30,7 +32,8 @@ pub struct Rate {
     pub flip_hold: f64,
     /// PSNR of sample-and-hold, decibels; none where there is no error.
     pub psnr_hold_db: Option<f64>,
-    /// The rate that sample-and-hold would need to be as good in FLIP: the largest N whose sample-and-hold is not worse.
+    /// The rate that sample-and-hold would need to be as good in FLIP: the largest N whose sample-and-hold is not
+    /// worse.
     pub hold_needs_every: u32,
 }
 
@@ -98,7 +101,8 @@ pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate
     let length = length(frames);
     let truths: Vec<Picture> = (0..length).map(|t| scene::render(scene, f64::from(t))).collect();
     let everies: Vec<u32> = EVERY.into_iter().filter(|&every| every <= length).collect();
-    // What follows an update does not depend on when the next one comes: each is extrapolated once, for the slowest rate.
+    // What follows an update does not depend on when the next one comes: each is extrapolated once, for the slowest
+    // rate.
     let starts: Vec<u32> = (0..length).filter(|start| start % 2 == 0 || length == 1).collect();
     let stretches: Vec<Vec<(Sum, Sum)>> = starts
         .par_iter()

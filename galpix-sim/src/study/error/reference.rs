@@ -1,5 +1,7 @@
 //! What the frames of a source are held against: the true pictures, the true paths, and the exact second-order paths.
 
+use std::sync::Arc;
+
 use galpix_core::Layout;
 use rayon::prelude::*;
 
@@ -19,7 +21,7 @@ pub struct Reference<'s> {
     /// Scene or capture.
     pub source: &'s Source,
     /// The update.
-    pub update: Update,
+    pub update: Arc<Update>,
     /// The update's picture: what sample-and-hold shows.
     pub hold: Picture,
     /// Frames to extrapolate.
@@ -42,7 +44,11 @@ impl<'s> Reference<'s> {
     /// Of a source over `frames` frames.
     #[must_use]
     pub fn new(source: &'s Source, frames: u32) -> Self {
-        let update = source.update();
+        Self::with_update(source, Arc::new(source.update()), frames)
+    }
+
+    /// Of a source over `frames` frames, with its update.
+    pub(super) fn with_update(source: &'s Source, update: Arc<Update>, frames: u32) -> Self {
         let hold = update.picture();
         let pictures = (PIXELS / hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
         let known: Vec<u32> = match source {

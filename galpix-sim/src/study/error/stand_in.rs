@@ -1,7 +1,7 @@
-//! Formats fixed at compile time, in whose form a product runs: a frame's time depends on the lanes, on the number of words, on
-//! the rung and on the picture, and hardly on single bits. So a configuration takes the time of the stand-in that has its
-//! lanes, where there is one. Each is compiled on its own, so there are few: other lanes are timed in the form chosen at run
-//! time alone.
+//! Formats fixed at compile time, in whose form a product runs: a frame's time depends on the lanes, on the number of
+//! words, on the rung and on the picture, and hardly on single bits. So a configuration takes the time of the stand-in
+//! that has its lanes, where there is one. Each is compiled on its own, so there are few: other lanes are timed in the
+//! form chosen at run time alone.
 
 use galpix_core::{Bits, Demand, Layout, Profile, Record, Settings, Static};
 

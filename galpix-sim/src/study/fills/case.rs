@@ -19,8 +19,8 @@ pub const NOTHING: Case = Case { name: "none", fill: Fill::Rung(FillMode::None) 
 /// Push-pull as it was before depth was taken into account.
 pub const CLASSIC: &str = "push-pull-classic";
 
-/// All of them, from cheap to rich; those that inpaint with this gamma, if one is given, and not within a fovea of this radius. The
-/// classic push-pull has no gamma.
+/// All of them, from cheap to rich; those that inpaint with this gamma, if one is given, and not within a fovea of this
+/// radius. The classic push-pull has no gamma.
 #[must_use]
 pub fn all(gamma: Option<Gamma>, fovea: Option<u32>) -> Vec<Case> {
     let rungs = FillMode::ALL.map(|rung| Case { name: rung.name(), fill: rung.into() });

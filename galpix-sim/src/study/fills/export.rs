@@ -1,8 +1,8 @@
 //! The pictures as files, for programs that fill the same holes in another way or judge them by another measure.
 //!
-//! `SOURCE/FRAME/` holds `truth.png`, `mask.png` (white: disoccluded, what is judged), `mask_all.png` (white: all that nothing reached),
-//! `warped.png` (those cells black) and `NAME.png` for each fill. `index.json` lists them; it is written last, so that where it is, the
-//! pictures are.
+//! `SOURCE/FRAME/` holds `truth.png`, `mask.png` (white: disoccluded, what is judged), `mask_all.png` (white: all that
+//! nothing reached), `warped.png` (those cells black) and `NAME.png` for each fill. `index.json` lists them; it is
+//! written last, so that where it is, the pictures are.
 
 use std::path::{Path, PathBuf};
 

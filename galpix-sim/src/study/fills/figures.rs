@@ -8,8 +8,8 @@ use crate::metric::stats::weighted_mean;
 use crate::picture::Picture;
 use crate::study::holes::{Holes, count};
 
-/// Cells around the disoccluded ones that are looked at. No filter of FLIP or SSIM reaches farther, and farther out a picture and the
-/// truth are the same.
+/// Cells around the disoccluded ones that are looked at. No filter of FLIP or SSIM reaches farther, and farther out a
+/// picture and the truth are the same.
 const MARGIN: usize = 24;
 
 /// Figures of one picture, or means of several, weighted by their cells.
@@ -21,10 +21,11 @@ pub struct Figures {
     pub ssim: Option<f64>,
     /// FLIP in the same way.
     pub flip: Option<f64>,
-    /// The variance of luma in the 7x7 cells around each disoccluded one, all others set to the truth; in code values squared.
+    /// The variance of luma in the 7x7 cells around each disoccluded one, all others set to the truth; in code values
+    /// squared.
     pub variance: Option<f64>,
-    /// The mean absolute change of luma, from the frame before, of the cells that are disoccluded in both, less that of the
-    /// truth at the same cells; in code values.
+    /// The mean absolute change of luma, from the frame before, of the cells that are disoccluded in both, less that of
+    /// the truth at the same cells; in code values.
     pub flicker: Option<f64>,
     /// SSIMULACRA2 of the whole picture.
     pub ssimulacra2: Option<f64>,

@@ -1,4 +1,5 @@
-//! The report as a page: how to read it, and for each source a table, a plot of error against time, and parts of the pictures.
+//! The report as a page: how to read it, and for each source a table, a plot of error against time, and parts of the
+//! pictures.
 
 use maud::{Markup, html};
 

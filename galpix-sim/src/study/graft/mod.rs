@@ -1,9 +1,9 @@
-//! What object grafts buy: each object of a scene updated at a rate of its own against updates of the whole view, at the same
-//! number of cells a second; and what pinning does for instruments over the picture.
+//! What object grafts buy: each object of a scene updated at a rate of its own against updates of the whole view, at
+//! the same number of cells a second; and what pinning does for instruments over the picture.
 //!
 //! Each surface of a scene is an object with a tag and a layer of its own, the first one the background in the base. A
-//! *rendering* is the rectangle of the cells in which a surface alone is seen, be it covered or not; every cell of it is
-//! counted as sent, be there something or not.
+//! *rendering* is the rectangle of the cells in which a surface alone is seen, be it covered or not; every cell of it
+//! is counted as sent, be there something or not.
 
 mod columns;
 mod pinned;

@@ -42,7 +42,8 @@ pub struct WayReport {
     pub worst_psnr_db: f64,
     /// Mean FLIP.
     pub flip: f64,
-    /// How far shown galpixels of objects are from where they truly are, px: mean over all and over the frames; without fills.
+    /// How far shown galpixels of objects are from where they truly are, px: mean over all and over the frames; without
+    /// fills.
     pub objects_px: f64,
     /// The same for the background.
     pub background_px: f64,

@@ -1,5 +1,5 @@
-//! The ways to know what was hidden side by side: how much of what the warp leaves open each of them fills, for how many samples and at what
-//! cost, and how far the picture is from the truth after the fill ladder did the rest.
+//! The ways to know what was hidden side by side: how much of what the warp leaves open each of them fills, for how
+//! many samples and at what cost, and how far the picture is from the truth after the fill ladder did the rest.
 //!
 //! ```text
 //! holes (the warp of the first layer alone) ─┬─▶ shown (each way's frames) ─┬─▶ report ─▶ columns, page

@@ -1,4 +1,5 @@
-//! The report as a page: how to read it, and for each source parts of the pictures, the disocclusion map, plots and a table.
+//! The report as a page: how to read it, and for each source parts of the pictures, the disocclusion map, plots and a
+//! table.
 
 use maud::{Markup, html};
 

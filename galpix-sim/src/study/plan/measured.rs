@@ -1,18 +1,15 @@
 //! A build, run over the update it is made for.
 
-use std::time::Duration;
-
 use galpix_core::{Dynamic, Format, Record, Settings};
 use serde::Serialize;
 
 use super::{Build, PlanError};
 use crate::engine::Engine;
 use crate::metric;
+use crate::metric::stats::{mean, median};
 use crate::picture::Picture;
-use crate::source::Source;
-use crate::study::job::Request;
+use crate::study::job::{Job, Request};
 use crate::study::run;
-use crate::update::Update;
 
 /// Rounds of timing: in each, every build runs once.
 const ROUNDS: u32 = 3;
@@ -31,12 +28,7 @@ pub struct Measured {
 }
 
 /// A source and how it is run.
-pub struct Subject<'s> {
-    pub source: &'s Source,
-    pub update: &'s Update,
-    pub request: &'s Request,
-    pub frames: u32,
-}
+pub struct Subject<'s>(pub Job<'s>);
 
 /// A run of a build.
 pub struct Ran {
@@ -53,8 +45,8 @@ pub struct Ran {
 impl Subject<'_> {
     /// The settings of a build with this stored form.
     pub fn settings(&self, build: &Build, record: &Record) -> Settings {
-        let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..*self.request };
-        request.settings(record, self.update.depth_kind)
+        let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..self.0.request };
+        request.settings(record, self.0.update.depth_kind)
     }
 
     fn engine(&self, build: &Build) -> Result<Engine, PlanError> {
@@ -65,7 +57,8 @@ impl Subject<'_> {
     /// Runs a build over all frames.
     pub fn run(&self, build: &Build) -> Result<Ran, PlanError> {
         let mut ran = Ran { pictures: Vec::new(), holes: 0, unobscured: 0, worst_px: None, saturated: 0 };
-        let loaded = self.engine(build)?.run(self.update, self.frames, |frame| {
+        let Job { source, update, frames, .. } = &self.0;
+        let loaded = self.engine(build)?.run(update, *frames, |frame| {
             if frame.number == 0 {
                 return;
             }
@@ -74,7 +67,7 @@ impl Subject<'_> {
             ran.unobscured += u64::from(tally.holes - tally.bullets);
             ran.saturated += u64::from(tally.saturated);
             ran.pictures.push(frame.picture());
-            let position = run::position(self.source, self.update, frame, |origin| Some(origin as usize));
+            let position = run::position(source, update, frame, |origin| Some(origin as usize));
             if let Some(position) = position {
                 ran.worst_px = Some(ran.worst_px.map_or(position.worst_px, |worst| worst.max(position.worst_px)));
             }
@@ -96,11 +89,10 @@ impl Ran {
     /// The mean likeness to the truth, over the frames whose truth is known.
     pub fn psnr_db(&self, subject: &Subject<'_>) -> Option<f64> {
         let known = (1..).zip(&self.pictures).filter_map(|(frame, picture)| {
-            let truth = subject.source.truth(frame)?;
+            let truth = subject.0.source.truth(frame)?;
             metric::psnr_db(picture, &truth.picture, truth.mask.as_deref())
         });
-        let (sum, count) = known.fold((0.0, 0u32), |(sum, count), psnr_db| (sum + psnr_db, count + 1));
-        (count > 0).then(|| sum / f64::from(count))
+        mean(known)
     }
 
     /// What is reported of this run; its time is measured later, beside others.
@@ -118,19 +110,18 @@ impl Ran {
 
 /// Times several builds, in turn, so that they share what the machine does meanwhile.
 pub fn time(subject: &Subject<'_>, builds: &mut [(Build, &mut Measured)]) -> Result<(), PlanError> {
-    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); builds.len()];
+    let mut times: Vec<Vec<f64>> = vec![Vec::new(); builds.len()];
     for _ in 0..ROUNDS {
         for ((build, _), times) in builds.iter().zip(&mut times) {
-            subject.engine(build)?.run(subject.update, subject.frames, |frame| {
+            subject.engine(build)?.run(&subject.0.update, subject.0.frames, |frame| {
                 if frame.number > 0 {
-                    times.push(frame.time);
+                    times.push(frame.time.as_secs_f64());
                 }
             })?;
         }
     }
-    for ((_, measured), mut times) in builds.iter_mut().zip(times) {
-        times.sort();
-        measured.frame_us = times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6);
+    for ((_, measured), times) in builds.iter_mut().zip(times) {
+        measured.frame_us = median(times).map_or(0.0, |seconds| seconds * 1e6);
     }
     Ok(())
 }

@@ -5,8 +5,8 @@
 //!                     ─▶ rung (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust that makes it so)
 //! ```
 //!
-//! The plane is decided by arithmetic: what leaving a lane out costs at most is added to the certificate of what is left.
-//! Depth and rung are decided by running the update: a display does exactly that.
+//! The plane is decided by arithmetic: what leaving a lane out costs at most is added to the certificate of what is
+//! left. Depth and rung are decided by running the update: a display does exactly that.
 
 mod code;
 mod depth;
@@ -21,9 +21,10 @@ use serde::Serialize;
 use crate::certificate::Unreachable;
 use crate::engine::EngineError;
 use crate::source::Source;
-use crate::study::job::Request;
+use crate::study::job::{ExperimentError, Job, Request};
 use extremes::Extremes;
 pub use measured::Measured;
+use measured::Subject;
 pub use motion::{Axis, Motion};
 
 /// Why there is no plan.
@@ -32,6 +33,9 @@ pub enum PlanError {
     /// No budget keeps the error.
     #[error("{0}")]
     Unreachable(#[from] Unreachable),
+    /// The source cannot be run.
+    #[error("{0}")]
+    Experiment(#[from] ExperimentError),
     /// The budget that the plan is compared with cannot exist.
     #[error("this budget cannot exist: {0}")]
     Budget(#[from] BudgetError),
@@ -122,11 +126,11 @@ pub struct Full {
 ///
 /// *Errors:* an error that no budget keeps, a full budget that cannot exist.
 pub fn plan(source: &Source, request: &Request, max_error: f64, tighter: f64) -> Result<Planning, PlanError> {
-    let update = source.update();
-    let frames = request.frames.unwrap_or(source.frames()).max(2);
-    let extremes = Extremes::of(&update, frames);
-    let demand = request.demand(&update, frames);
-    let subject = measured::Subject { source, update: &update, request, frames };
+    // A plan looks at frames from one to the next.
+    let frames = Some(request.frames(source).max(2));
+    let subject = Subject(Job::resolve(source, &Request { frames, ..*request })?);
+    let Job { frames, demand, ref update, .. } = subject.0;
+    let extremes = Extremes::of(update, frames);
     let mut full = full(&subject, demand)?;
     let mut plan = one(&subject, &extremes, demand, max_error)?;
     let mut tight = match one(&subject, &extremes, demand, tighter) {
@@ -154,11 +158,11 @@ fn full_build(demand: Demand) -> Result<Build, PlanError> {
     Ok(Build { bits: Bits::derive(demand)?, layout, rounding: Rounding::default(), fill_mode: FillMode::default() })
 }
 
-fn full(subject: &measured::Subject<'_>, demand: Demand) -> Result<Full, PlanError> {
+fn full(subject: &Subject<'_>, demand: Demand) -> Result<Full, PlanError> {
     let build = full_build(demand)?;
     let record = Record::plan(build.bits, build.layout)?;
     let certificate =
-        crate::certificate::Certificate::of(&record.scales[0], true, build.rounding, subject.frames.max(demand.prop));
+        crate::certificate::Certificate::of(&record.scales[0], true, build.rounding, subject.0.frames.max(demand.prop));
     Ok(Full {
         extent: demand.extent,
         recog: demand.recog,
@@ -171,13 +175,8 @@ fn full(subject: &measured::Subject<'_>, demand: Demand) -> Result<Full, PlanErr
 }
 
 /// A plan for one error.
-fn one(
-    subject: &measured::Subject<'_>,
-    extremes: &Extremes,
-    demand: Demand,
-    max_error: f64,
-) -> Result<Plan, PlanError> {
-    let motion = Motion::for_error(extremes, subject.frames, max_error)?;
+fn one(subject: &Subject<'_>, extremes: &Extremes, demand: Demand, max_error: f64) -> Result<Plan, PlanError> {
+    let motion = Motion::for_error(extremes, subject.0.frames, max_error)?;
     let mut reasons = motion.reasons(extremes, max_error);
     let luminosity = extremes.luminosity_gain >= 0.5;
     reasons.push(if luminosity {
@@ -201,7 +200,7 @@ fn one(
     depth::settle(subject, extremes, &mut build, &mut reasons)?;
     let record = Record::plan(build.bits, build.layout)?;
     let ran = subject.run(&build)?;
-    let code = code::text(subject.source.name(), &build, &record, subject.settings(&build, &record));
+    let code = code::text(subject.0.source.name(), &build, &record, subject.settings(&build, &record));
     Ok(Plan {
         max_error_px: max_error,
         depth_bits: build.layout.depth_bits,

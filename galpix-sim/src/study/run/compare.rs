@@ -53,7 +53,8 @@ impl Errors {
     }
 }
 
-/// How far the galpixels of a frame are from where they should be: of those that `cell` says are samples of the update, and which.
+/// How far the galpixels of a frame are from where they should be: of those that `cell` says are samples of the update,
+/// and which.
 pub(crate) fn position(
     source: &Source,
     update: &Update,

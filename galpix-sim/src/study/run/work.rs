@@ -3,8 +3,8 @@
 use crate::metric::stats;
 use crate::study::job::{ExperimentError, Job};
 
-/// Returns the time of a frame with constant work by that of the same frame without what its picture does not need: the medians
-/// of the first `frames` frames of a job, whose bits are the same in both modes. 1 where no frame was made.
+/// Returns the time of a frame with constant work by that of the same frame without what its picture does not need: the
+/// medians of the first `frames` frames of a job, whose bits are the same in both modes. 1 where no frame was made.
 ///
 /// *Errors:* a map that does not fit.
 pub fn work_gain(job: &Job<'_>, frames: u32) -> Result<f64, ExperimentError> {

@@ -1,7 +1,7 @@
 //! Follows a path and splits its error by cause, exactly.
 //!
-//! Five places lie between the true one and the cell that the display shows; what lies between two neighbours of them is
-//! the share of one cause, so that the shares add up to the whole error whatever the engine does:
+//! Five places lie between the true one and the cell that the display shows; what lies between two neighbours of them
+//! is the share of one cause, so that the shares add up to the whole error whatever the engine does:
 //!
 //! ```text
 //! true motion ─ Taylor ─ exact path of the exact r, v, a ─ quantisation ─ that of r, v, a to nearest
@@ -122,8 +122,8 @@ impl Reference {
         (reference, clamped)
     }
 
-    /// One frame later; and how many fields were clamped. `threshold` and `before`: of the engine, whose depth ends where it
-    /// would leave its range.
+    /// One frame later; and how many fields were clamped. `threshold` and `before`: of the engine, whose depth ends
+    /// where it would leave its range.
     fn step(&mut self, ranges: &Ranges, threshold: i32, before: State) -> u32 {
         let scale = &ranges.scale;
         let [_, v, a] = self.raw;

@@ -2,14 +2,12 @@
 
 mod plots;
 
-use std::fmt::Display;
-
-use maud::PreEscaped;
+use maud::{Markup, html};
 
 use super::summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, Shares};
 use super::verdict::{Uncovered, Verdict};
-use crate::output::html::document;
 use crate::output::html::text::{Text, anchor, count};
+use crate::output::html::{cell, document, list};
 
 /// The report as one HTML document that needs nothing but itself.
 #[must_use]
@@ -31,9 +29,14 @@ pub fn html(report: &Report, seconds: f64) -> String {
             .to_owned(),
         summary(report),
     ];
-    let sections: String = report.cases.iter().enumerate().map(|(index, case)| section(index, case)).collect();
-    let main = [overview(report), READING.to_owned(), sections].concat();
-    document("galpix: stiff and extreme", &intro, &facts, &PreEscaped(main), &PreEscaped(String::new()))
+    let main = html! {
+        (overview(report))
+        (reading())
+        @for (index, case) in report.cases.iter().enumerate() {
+            @if let Some(shown) = case.shown() { (section(index, case, shown)) }
+        }
+    };
+    document("galpix: stiff and extreme", &intro, &facts, &main, &Markup::default())
 }
 
 fn summary(report: &Report) -> String {
@@ -46,15 +49,31 @@ fn summary(report: &Report) -> String {
     )
 }
 
-const READING: &str = "<section id=\"reading\"><h2>How to read this</h2><ul class=\"reading\">\
-<li><span class=\"ink\" style=\"--ink:var(--hold)\">Taylor</span>: the true motion minus the exact second-order path of the exact \
-position, velocity and acceleration. No arithmetic can know it; the next update ends it.</li>\
-<li><span class=\"ink\" style=\"--ink:var(--known)\">Quantisation</span>: what storing the three to nearest costs. \
-<span class=\"ink\" style=\"--ink:var(--galpix)\">Drift</span>: what rounding the position in each frame adds. These two are what the \
-<span class=\"ink\" style=\"--ink:var(--bound)\">bound</span> holds: the certificate up to tau_prop, the same enumeration beyond.</li>\
-<li><span class=\"ink\" style=\"--ink:var(--holes)\">Saturation</span>: what clamping a field at its end changed. A clamped \
-galpixel is counted and leaves the certificate. <span class=\"ink\" style=\"--ink:var(--guide)\">Snapping</span>: the cell shown is \
-at most half a pixel from the position.</li></ul></section>";
+fn reading() -> Markup {
+    let ink = |name: &str, text: &str| html! { span.ink style={ "--ink:var(--" (name) ")" } { (text) } };
+    html! {
+        section id="reading" {
+            h2 { "How to read this" }
+            ul.reading {
+                li {
+                    (ink("hold", "Taylor"))
+                    ": the true motion minus the exact second-order path of the exact position, velocity and acceleration. No \
+                     arithmetic can know it; the next update ends it."
+                }
+                li {
+                    (ink("known", "Quantisation")) ": what storing the three to nearest costs. "
+                    (ink("galpix", "Drift")) ": what rounding the position in each frame adds. These two are what the "
+                    (ink("bound", "bound")) " holds: the certificate up to tau_prop, the same enumeration beyond."
+                }
+                li {
+                    (ink("holes", "Saturation"))
+                    ": what clamping a field at its end changed. A clamped galpixel is counted and leaves the certificate. "
+                    (ink("guide", "Snapping")) ": the cell shown is at most half a pixel from the position."
+                }
+            }
+        }
+    }
+}
 
 /// A length in pixels: four digits after the point while it is small, powers of ten where it is tiny.
 fn px(value: f64) -> String {
@@ -68,17 +87,13 @@ fn px(value: f64) -> String {
     }
 }
 
-fn badge(verdict: Verdict) -> String {
+fn badge(verdict: Verdict) -> Markup {
     let class = match verdict {
-        Verdict::Bounded => " class=\"good\"",
-        Verdict::NotCovered => "",
-        Verdict::Unstable => " class=\"poor\"",
+        Verdict::Bounded => Some("good"),
+        Verdict::NotCovered => None,
+        Verdict::Unstable => Some("poor"),
     };
-    format!("<em{class}>{}</em>", verdict.name())
-}
-
-fn cell(name: &str, content: impl Display) -> String {
-    format!("<td data-name=\"{name}\"><span>{content}</span></td>")
+    html! { em class=[class] { (verdict.name()) } }
 }
 
 type PathColumn = (&'static str, fn(&Shares) -> f64);
@@ -105,76 +120,97 @@ const PICTURE_COLUMNS: [PictureColumn; 6] = [
     ("clamped", |picture| picture.clamped),
 ];
 
-fn overview(report: &Report) -> String {
-    let cases = || report.cases.iter().enumerate().filter_map(|(index, case)| Some((index, case, case.shown()?)));
-    let name = |index: usize, case: &CaseReport| {
-        format!("<th scope=\"row\"><a href=\"#{}\">{}</a></th>", anchor(index, case.name), Text(case.name))
-    };
-    let paths: String = cases()
+fn overview(report: &Report) -> Markup {
+    let rounding = report.cases.first().and_then(CaseReport::shown).map_or("", |shown| shown.rounding);
+    html! {
+        section id="overview" {
+            h2 { "Overview" }
+            (path_overview(report))
+            p.remark {
+                "Pixels: the largest in any frame of any path, with " (rounding)
+                " rounding. f32, f64: the same scheme in floating point, from the exact second-order path. clamped: fields."
+            }
+            (picture_overview(report))
+            p.remark {
+                "Cells, all frames and all rungs of the fill ladder together. position: the largest error of a galpixel of the \
+                 update, in pixels."
+            }
+        }
+    }
+}
+
+fn name(index: usize, case: &CaseReport) -> Markup {
+    html! { th scope="row" { a href={ "#" (anchor(index, case.name)) } { (Text(case.name)) } } }
+}
+
+/// The cases of which something is shown, with their places.
+fn cases(report: &Report) -> impl Iterator<Item = (usize, &CaseReport, &RoundingReport)> {
+    report.cases.iter().enumerate().filter_map(|(index, case)| Some((index, case, case.shown()?)))
+}
+
+fn path_overview(report: &Report) -> Markup {
+    let rows: Vec<Markup> = cases(report)
         .filter_map(|(index, case, shown)| {
             let worst = shown.worst?;
-            let columns: String = PATH_COLUMNS.iter().map(|(name, column)| cell(name, px(column(&worst)))).collect();
-            let verdict = cell("verdict", badge(case.verdict));
-            Some(format!("<tr>{}{columns}{}{verdict}</tr>", name(index, case), cell("clamped", shown.clamped)))
+            Some(html! {
+                (name(index, case))
+                @for (name, column) in PATH_COLUMNS { (cell(name, &html! { (px(column(&worst))) })) }
+                (cell("clamped", &html! { (shown.clamped) }))
+                (cell("verdict", &badge(case.verdict)))
+            })
         })
         .collect();
-    let pictures: String = cases()
+    let names = PATH_COLUMNS.iter().map(|column| column.0);
+    let heads: Vec<&str> = ["paths"].into_iter().chain(names).chain(["clamped", "verdict"]).collect();
+    table("overview", &heads, &rows)
+}
+
+fn picture_overview(report: &Report) -> Markup {
+    let rows: Vec<Markup> = cases(report)
         .filter(|(_, _, shown)| !shown.pictures.is_empty())
         .map(|(index, case, shown)| {
             let sum = |column: fn(&PictureReport) -> u64| count(shown.pictures.iter().map(column).sum());
-            let columns: String = PICTURE_COLUMNS.iter().map(|(name, column)| cell(name, sum(*column))).collect();
             let off = shown.pictures.iter().map(|picture| picture.worst_px).fold(0.0, f64::max);
-            format!(
-                "<tr>{}{columns}{}{}</tr>",
-                name(index, case),
-                cell("position", px(off)),
-                cell("verdict", badge(case.verdict))
-            )
+            html! {
+                (name(index, case))
+                @for (name, column) in PICTURE_COLUMNS { (cell(name, &html! { (sum(column)) })) }
+                (cell("position", &html! { (px(off)) }))
+                (cell("verdict", &badge(case.verdict)))
+            }
         })
         .collect();
-    let heads = |names: Vec<&str>| names.iter().map(|name| format!("<th>{name}</th>")).collect::<String>();
-    let table = |heads: String, rows: String| {
-        if rows.is_empty() {
-            return String::new();
-        }
-        format!(
-            "<div class=\"wide\"><table class=\"overview\"><thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table></div>"
-        )
-    };
-    let path_heads = heads(
-        ["paths"].into_iter().chain(PATH_COLUMNS.iter().map(|column| column.0)).chain(["clamped", "verdict"]).collect(),
-    );
-    let picture_heads = heads(
-        ["pictures"]
-            .into_iter()
-            .chain(PICTURE_COLUMNS.iter().map(|column| column.0))
-            .chain(["position", "verdict"])
-            .collect(),
-    );
-    let rounding = report.cases.first().and_then(CaseReport::shown).map_or("", |shown| shown.rounding);
-    format!(
-        "<section id=\"overview\"><h2>Overview</h2>{}<p class=\"remark\">Pixels: the largest in any frame of any path, with \
-         {rounding} rounding. f32, f64: the same scheme in floating point, from the exact second-order path. clamped: fields.</p>{}\
-         <p class=\"remark\">Cells, all frames and all rungs of the fill ladder together. position: the largest error of a \
-         galpixel of the update, in pixels.</p></section>",
-        table(path_heads, paths),
-        table(picture_heads, pictures)
-    )
+    let names = PICTURE_COLUMNS.iter().map(|column| column.0);
+    let heads: Vec<&str> = ["pictures"].into_iter().chain(names).chain(["position", "verdict"]).collect();
+    table("overview", &heads, &rows)
 }
 
-fn section(index: usize, case: &CaseReport) -> String {
-    let Some(shown) = case.shown() else { return String::new() };
-    [
-        format!("<section class=\"story\" id=\"{}\"><h2>{}</h2>", anchor(index, case.name), Text(case.name)),
-        format!("<p class=\"about\">{}.</p>", Text(case.stress)),
-        promise(case, shown),
-        plots::plots(case, shown),
-        findings(case),
-        path_table(shown),
-        picture_table(shown),
-        "<p class=\"up\"><a href=\"#overview\">to the overview</a></p></section>".to_owned(),
-    ]
-    .concat()
+/// Returns a table of rows that are cells; nothing where there are none.
+fn table(class: &str, heads: &[&str], rows: &[Markup]) -> Markup {
+    html! {
+        @if !rows.is_empty() {
+            div.wide {
+                table class=(class) {
+                    thead { tr { @for head in heads { th { (head) } } } }
+                    tbody { @for row in rows { tr { (row) } } }
+                }
+            }
+        }
+    }
+}
+
+fn section(index: usize, case: &CaseReport, shown: &RoundingReport) -> Markup {
+    html! {
+        section.story id=(anchor(index, case.name)) {
+            h2 { (Text(case.name)) }
+            p.about { (Text(case.stress)) "." }
+            (promise(case, shown))
+            (plots::plots(case, shown))
+            (findings(case))
+            (path_table(shown))
+            (picture_table(shown))
+            p.up { a href="#overview" { "to the overview" } }
+        }
+    }
 }
 
 /// What is not covered, in words.
@@ -191,7 +227,7 @@ pub fn reasons(uncovered: &Uncovered) -> Vec<String> {
     .collect()
 }
 
-fn promise(case: &CaseReport, shown: &RoundingReport) -> String {
+fn promise(case: &CaseReport, shown: &RoundingReport) -> Markup {
     let reached = match shown.worst {
         Some(worst) if worst.of_bound > 0.0 => format!(
             " Quantisation and drift together reach {}\u{a0}px, and at most {:.0}\u{a0}% of the bound of their frame.",
@@ -222,54 +258,46 @@ fn promise(case: &CaseReport, shown: &RoundingReport) -> String {
         Verdict::Unstable => ("poor", "Unstable: the engine did what it may not do.".to_owned()),
     };
     let conserved = if case.verdict == Verdict::Unstable { String::new() } else { conserved };
-    format!("<p class=\"promise {class}\"><strong>{}</strong>{reached}{conserved}</p>", Text(&verdict))
+    html! { p class={ "promise " (class) } { strong { (Text(&verdict)) } (reached) (conserved) } }
 }
 
-fn findings(case: &CaseReport) -> String {
-    let items: String = case
-        .roundings
-        .iter()
-        .flat_map(|one| one.findings.iter().map(move |finding| format!("{}: {finding}", one.rounding)))
-        .map(|finding| format!("<li>{}</li>", Text(&finding)))
-        .collect();
-    if items.is_empty() { items } else { format!("<ul class=\"notes\">{items}</ul>") }
+fn findings(case: &CaseReport) -> Markup {
+    let of = |one: &RoundingReport| -> Vec<String> {
+        one.findings.iter().map(|finding| format!("{}: {finding}", one.rounding)).collect()
+    };
+    let items: Vec<String> = case.roundings.iter().flat_map(of).collect();
+    html! { @if !items.is_empty() { (list(&items)) } }
 }
 
-fn details(title: &str, heads: &[&str], rows: String) -> String {
-    let heads: String = heads.iter().map(|name| format!("<th>{name}</th>")).collect();
-    format!(
-        "<details><summary>{title}</summary><div class=\"wide\"><table class=\"rows\"><thead><tr>{heads}</tr></thead>\
-         <tbody>{rows}</tbody></table></div></details>"
-    )
+fn details(title: &str, heads: &[&str], rows: &[Markup]) -> Markup {
+    html! { @if !rows.is_empty() { details { summary { (title) } (table("rows", heads, rows)) } } }
 }
 
-fn path_table(shown: &RoundingReport) -> String {
-    if shown.paths.is_empty() {
-        return String::new();
-    }
+fn path_table(shown: &RoundingReport) -> Markup {
     let row = |path: &PathReport| {
-        let columns: String =
-            PATH_COLUMNS.iter().map(|(_, column)| format!("<td>{}</td>", px(column(&path.worst)))).collect();
-        let clamped = path.clamped;
-        format!("<tr><td>{}</td>{columns}<td>{clamped}</td><td>{}</td></tr>", Text(&path.name), path.verdict.name())
+        html! {
+            td { (Text(&path.name)) }
+            @for (_, column) in PATH_COLUMNS { td { (px(column(&path.worst))) } }
+            td { (path.clamped) }
+            td { (path.verdict.name()) }
+        }
     };
-    let heads: Vec<&str> =
-        ["path"].into_iter().chain(PATH_COLUMNS.iter().map(|column| column.0)).chain(["clamped", "verdict"]).collect();
-    let title = format!("Path by path, {} rounding", shown.rounding);
-    details(&title, &heads, shown.paths.iter().map(row).collect())
+    let names = PATH_COLUMNS.iter().map(|column| column.0);
+    let heads: Vec<&str> = ["path"].into_iter().chain(names).chain(["clamped", "verdict"]).collect();
+    let rows: Vec<Markup> = shown.paths.iter().map(row).collect();
+    details(&format!("Path by path, {} rounding", shown.rounding), &heads, &rows)
 }
 
-fn picture_table(shown: &RoundingReport) -> String {
-    if shown.pictures.is_empty() {
-        return String::new();
-    }
+fn picture_table(shown: &RoundingReport) -> Markup {
     let row = |picture: &PictureReport| {
-        let columns: String =
-            PICTURE_COLUMNS.iter().map(|(_, column)| format!("<td>{}</td>", count(column(picture)))).collect();
-        format!("<tr><td>{}</td>{columns}<td>{}</td></tr>", Text(&picture.name), px(picture.worst_px))
+        html! {
+            td { (Text(&picture.name)) }
+            @for (_, column) in PICTURE_COLUMNS { td { (count(column(picture))) } }
+            td { (px(picture.worst_px)) }
+        }
     };
-    let heads: Vec<&str> =
-        ["picture"].into_iter().chain(PICTURE_COLUMNS.iter().map(|column| column.0)).chain(["position px"]).collect();
-    let title = format!("Picture by picture, {} rounding, all rungs together", shown.rounding);
-    details(&title, &heads, shown.pictures.iter().map(row).collect())
+    let names = PICTURE_COLUMNS.iter().map(|column| column.0);
+    let heads: Vec<&str> = ["picture"].into_iter().chain(names).chain(["position px"]).collect();
+    let rows: Vec<Markup> = shown.pictures.iter().map(row).collect();
+    details(&format!("Picture by picture, {} rounding, all rungs together", shown.rounding), &heads, &rows)
 }

@@ -98,8 +98,8 @@ fn arithmetic_px(row: &Row) -> f64 {
     (row.causes.quantisation + row.causes.drift).abs().to_f64()
 }
 
-/// The law that a frame breaks. Beyond a clamp the low bits of the velocity may stand still, and with them what rounding
-/// drops: from there on each frame may drift by one last bit of the position.
+/// The law that a frame breaks. Beyond a clamp the low bits of the velocity may stand still, and with them what
+/// rounding drops: from there on each frame may drift by one last bit of the position.
 fn broken(row: &Row, law: &Law, aligned: bool, last_clean: u32) -> Option<String> {
     let drift = row.causes.drift.abs().to_f64();
     let snapping = row.causes.snapping;

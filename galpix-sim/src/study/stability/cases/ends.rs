@@ -67,7 +67,8 @@ fn signed(steps: i64) -> String {
     if steps == 0 { "0".to_owned() } else { format!("{steps:+}") }
 }
 
-/// From half of the largest velocity on, over it after half of tau_prop; at once; and with a last bit more than it takes.
+/// From half of the largest velocity on, over it after half of tau_prop; at once; and with a last bit more than it
+/// takes.
 pub fn saturating(setting: &Setting) -> Vec<Path> {
     let ranges = setting.ranges(0);
     let prop = i64::from(setting.demand.prop);

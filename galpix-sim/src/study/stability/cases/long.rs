@@ -51,8 +51,8 @@ pub fn sub_lsb(setting: &Setting) -> Vec<Path> {
     .into()
 }
 
-/// Accelerations of a quarter, an eighth and three quarters of the period of the thresholds: after each period the low bits
-/// meet the same thresholds again.
+/// Accelerations of a quarter, an eighth and three quarters of the period of the thresholds: after each period the low
+/// bits meet the same thresholds again.
 pub fn in_step(setting: &Setting) -> Vec<Path> {
     let frames = LONG.max(2 * setting.demand.prop);
     let scale = &setting.record.scales[0];

@@ -1,20 +1,21 @@
 //! Which lines the plots of a case have.
 
+use maud::{Markup, PreEscaped, html};
+
 use super::super::summary::{CaseReport, PathReport, RoundingReport, SeriesRow};
+use crate::output::html::line_key;
 use crate::output::html::plot::{Line, Plot, Stroke, svg, svg_log};
 use crate::output::html::style::Ink;
 use crate::output::html::text::Text;
 
-/// The plots of a case, each a `<figure>` with its legend.
-pub fn plots(case: &CaseReport, shown: &RoundingReport) -> String {
-    let mut parts = Vec::new();
-    if let Some(path) = shown.told() {
-        parts.extend([by_cause(case, path), beside_floats(case, path), by_rounding(case)]);
+/// Returns the plots of a case, each a `<figure>` with its legend.
+pub fn plots(case: &CaseReport, shown: &RoundingReport) -> Markup {
+    html! {
+        div.plots {
+            @if let Some(path) = shown.told() { (by_cause(case, path)) (beside_floats(case, path)) (by_rounding(case)) }
+            @if !shown.pictures.is_empty() { (tallies(case, shown)) }
+        }
     }
-    if !shown.pictures.is_empty() {
-        parts.push(tallies(case, shown));
-    }
-    format!("<div class=\"plots\">{}</div>", parts.concat())
 }
 
 /// Of more updates than this only the largest figure between two of them is drawn.
@@ -69,7 +70,7 @@ fn says_something(line: &Line) -> bool {
     line.points.iter().any(|&(_, value)| value.is_some_and(|value| value > 0.0))
 }
 
-fn by_cause(case: &CaseReport, path: &PathReport) -> String {
+fn by_cause(case: &CaseReport, path: &PathReport) -> Markup {
     let share = |name: &str, ink: Ink, column: fn(&SeriesRow) -> f64| {
         line(name, ink, Stroke::Solid, path, |row| Some(column(row).abs()))
     };
@@ -91,7 +92,7 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> String {
     )
 }
 
-fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
+fn beside_floats(case: &CaseReport, path: &PathReport) -> Markup {
     let mut lines = bounds(path);
     lines.extend([
         line("f64", Ink::Collided, Stroke::Solid, path, |row| Some(row.f64_px.abs())),
@@ -110,7 +111,7 @@ fn beside_floats(case: &CaseReport, path: &PathReport) -> String {
 }
 
 /// The largest drift so far with each rounding.
-fn by_rounding(case: &CaseReport) -> String {
+fn by_rounding(case: &CaseReport) -> Markup {
     let inks = [Ink::Hold, Ink::Collided, Ink::Galpix, Ink::Filled];
     let lines = case.roundings.iter().zip(inks).map(|(one, ink)| Line {
         name: one.rounding.to_owned(),
@@ -126,7 +127,7 @@ fn by_rounding(case: &CaseReport) -> String {
 }
 
 /// All pictures of a case together.
-fn tallies(case: &CaseReport, shown: &RoundingReport) -> String {
+fn tallies(case: &CaseReport, shown: &RoundingReport) -> Markup {
     let frames = shown.pictures.iter().map(|picture| picture.tallies.len()).max().unwrap_or(0);
     let sum = |frame: usize, column: usize| {
         let counted = shown.pictures.iter().filter_map(|picture| picture.tallies.get(frame));
@@ -147,25 +148,25 @@ fn tallies(case: &CaseReport, shown: &RoundingReport) -> String {
     figure(case, ["Tallies", "cells"], "All pictures of this case together, with the richest rung.", lines, false)
 }
 
-fn figure(case: &CaseReport, [title, unit]: [&str; 2], remark: &str, lines: Vec<Line>, log: bool) -> String {
-    let legend: String = lines.iter().rev().map(key).collect();
+fn figure(case: &CaseReport, [title, unit]: [&str; 2], remark: &str, lines: Vec<Line>, log: bool) -> Markup {
+    let legend = html! {
+        @for line in lines.iter().rev() { (line_key(&line.name, line.ink, line.stroke == Stroke::Dashed)) }
+    };
     let description = format!("{}: {title} in {unit} over frames", case.name);
     let plot = Plot { description, lines, from_zero: true, cap: f64::INFINITY };
-    let Some(drawing) = (if log { svg_log(&plot) } else { svg(&plot) }) else {
-        return format!(
-            "<figure><h3>{title}</h3><p class=\"nothing\">Nothing to draw: it is 0 in every frame.</p></figure>"
-        );
-    };
-    let scale = if log { ", logarithmic" } else { "" };
-    format!(
-        "<figure><h3>{title} <small>{unit}{scale}</small></h3><p class=\"legend\">{legend}</p>{drawing}\
-         <p class=\"axis\">frames since the first update</p><figcaption>{}</figcaption></figure>",
-        Text(remark)
-    )
-}
-
-/// One entry of a legend.
-fn key(line: &Line) -> String {
-    let kind = if line.stroke == Stroke::Dashed { "key dashed" } else { "key" };
-    format!("<span><i class=\"{kind}\" style=\"--ink:var(--{})\"></i>{}</span> ", line.ink.name(), Text(&line.name))
+    let drawing = if log { svg_log(&plot) } else { svg(&plot) };
+    html! {
+        figure {
+            @match drawing {
+                None => { h3 { (title) } p.nothing { "Nothing to draw: it is 0 in every frame." } },
+                Some(drawing) => {
+                    h3 { (title) " " small { (unit) @if log { ", logarithmic" } } }
+                    p.legend { (legend) }
+                    (PreEscaped(drawing))
+                    p.axis { "frames since the first update" }
+                    figcaption { (Text(remark)) }
+                },
+            }
+        }
+    }
 }
