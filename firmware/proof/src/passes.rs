@@ -6,8 +6,8 @@ use core::hint::black_box;
 use galpix_core::inpaint::PushPull;
 use galpix_core::rolling::Rolling;
 use galpix_core::{
-    Controller, Format, Galpixel, Galpixmap, Grafted, Grid, Inpainting, Profile, Rounding, Scratch, Settings, Static,
-    Tally, graft, scan_out, stages,
+    Controller, Delay, Format, Galpixel, Galpixmap, Grafted, Grid, Inpainting, Profile, Rounding, Scratch, Settings,
+    Static, Tally, graft, scan_out, stages,
 };
 
 use crate::Inputs;

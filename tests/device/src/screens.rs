@@ -8,7 +8,7 @@ use galpix_controller::scene;
 use galpix_core::Class;
 use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
 use galpix_sim::send::pack;
-use galpix_sim::{fit, scene as sources};
+use galpix_sim::source::{fit, scene as sources};
 
 use crate::boards::{Board, Filling};
 use crate::emulator::{Emulator, Pace};

@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use galpix_core::FillMode;
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
-use galpix_sim::study::run::{self, Request, RunReport};
+use galpix_sim::study::run::{self as experiment, Request, RunReport};
 use galpix_tests::captures::{manifests, shared};
 
 /// PSNR in dB of a forward warp in floating point with velocity and acceleration, to the nearest pixel and without fill,

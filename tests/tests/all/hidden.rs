@@ -4,7 +4,7 @@ use galpix_core::{Bits, Dynamic, Layout, Settings};
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::engine::{Beside, Engine, EngineError, MAX_BESIDE, NO_ORIGIN};
 use galpix_sim::source::Source;
-use galpix_sim::study::run::{self, ExperimentError, Request, RunReport};
+use galpix_sim::study::run::{self as experiment, ExperimentError, Request, RunReport};
 use galpix_sim::source::hidden::{Arrangement, Kind, SEPARATION, Way};
 use galpix_sim::study::layers::report::SourceReport;
 use galpix_sim::study::layers::{Plan, Study, study, ways};
@@ -123,7 +123,7 @@ fn no_scene_gets_worse_with_what_is_shipped() {
 fn an_empty_layer_changes_nothing() {
     let update = scene::update(scene::find("crossing").unwrap(), 0.0);
     let empty = with(&update, |_| Sample { known: Known::ColourOnly, ..Sample::default() });
-    let bits = Bits::derive(experiment::demand(&update, 6, &Request::default())).unwrap();
+    let bits = Bits::derive(Request::default().demand(&update, 6)).unwrap();
     let engine = Engine::new(Dynamic::new(bits, Layout::FULL).unwrap(), Settings::for_depth(16));
     let shown = |beside: &[Beside<'_>]| {
         let (mut pictures, mut origins) = (Vec::new(), Vec::new());
@@ -146,7 +146,7 @@ fn an_empty_layer_changes_nothing() {
 fn what_cannot_be_layered_is_refused() {
     let update = scene::update(scene::find("drift").unwrap(), 0.0);
     let other = scene::update(scene::find("fovea").unwrap(), 0.0);
-    let bits = Bits::derive(experiment::demand(&update, 6, &Request::default())).unwrap();
+    let bits = Bits::derive(Request::default().demand(&update, 6)).unwrap();
     let engine = Engine::new(Dynamic::new(bits, Layout::FULL).unwrap(), Settings::for_depth(16));
     let refused =
         |beside: &[Beside<'_>]| engine.run_layers(&update, beside, 1, |_| panic!("nothing is shown")).unwrap_err();

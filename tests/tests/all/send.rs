@@ -15,7 +15,7 @@ use galpix_link::rejected::Rejected;
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
 use galpix_sim::send::{self, Address, Report, Request, SendError};
-use galpix_sim::{fit, scene};
+use galpix_sim::source::{fit, scene};
 use galpix_tests::random;
 use rand::RngExt;
 

@@ -39,8 +39,7 @@ impl Bench {
             let mut controller = Controller::new(map, front, Scratch::default()).expect("maps of one grid");
             // What is put into holes is asked by nobody: the second finds what the first has found.
             for motion in [Motion::Kept, Motion::Inpainted] {
-                let mut push_pull =
-                    PushPull::new(grid.width(), grid.height(), motion, memory).expect("memory enough");
+                let mut push_pull = PushPull::new(grid.width(), grid.height(), motion, memory).expect("memory enough");
                 let (settings, inpainting) = (black_box(&settings), black_box(&inpainting));
                 let (ticks, holes) = clock.time(|| controller.inpaint(settings, inpainting, &mut push_pull));
                 match motion {

@@ -1,6 +1,6 @@
 //! The scenes themselves.
 
-use super::{Body, Number, Outline, Path, Pattern, Scene, Texture};
+use super::body::{Body, Number, Outline, Path, Pattern, Scene, Texture};
 
 const fn squares(size_log2: u32, colours: [[u8; 3]; 2]) -> Texture {
     Texture { pattern: Pattern::Squares, size_log2, colours }

@@ -1,16 +1,10 @@
-//! Push-pull: the same bits as a slow text of the same rules, sparse or dense, and what must hold for any picture.
+//! Push-pull of plain pictures: what must hold for any of them. That the bits are those of the rules is tested inside the core.
 
 mod map;
 mod metamer;
-mod slow;
 
-use galpix_core::inpaint::levels;
-use galpix_core::inpaint::paint::Tint;
-use galpix_core::inpaint::picture::Masked;
-use galpix_core::inpaint::push_pull::{Rule, dense, pulled, sparse};
-use galpix_core::inpaint::pyramid::{Cell, Known, Pyramid, state_words};
-use galpix_core::inpaint::validity::Gamma;
-use galpix_core::{Colour, SetupError};
+use galpix_core::inpaint::{Gamma, Motion, Picture, PushPull};
+use galpix_core::{Colour, Inpainting};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -18,14 +12,7 @@ fn config(cases: u32) -> ProptestConfig {
     ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(2021), ..ProptestConfig::default() }
 }
 
-/// The two forms of an inpainting: what is needed alone, and everything.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    Sparse,
-    Dense,
-}
-
-/// A picture with holes, as [`Masked`] takes it.
+/// A picture with holes, as [`Picture`] takes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Holed {
     size: [u32; 2],
@@ -36,21 +23,17 @@ struct Holed {
 
 impl Holed {
     /// The colours after the holes were filled, and how many were.
-    fn filled(&self, rule: Rule, form: Form) -> (Vec<u32>, u32) {
+    fn filled(&self, inpainting: &Inpainting<'_>) -> (Vec<u32>, u32) {
         let [width, height] = self.size;
         let mut bits = vec![0u32; self.known.len().div_ceil(32)];
         for (cell, _) in self.known.iter().enumerate().filter(|(_, known)| **known) {
             bits[cell / 32] |= 1 << (cell % 32);
         }
         let mut colours = self.colours.clone();
-        let mut memory = vec![Cell::default(); levels::cells(width, height)];
-        let mut states = vec![0; state_words(memory.len())];
-        let mut pyramid = Pyramid::new(width, height, &mut memory, &mut states).unwrap();
-        let mut picture = Masked::new(width, height, Colour::RGB888, &mut colours, &bits, &self.depths).unwrap();
-        let filled = match form {
-            Form::Sparse => sparse(&mut picture, &mut pyramid, &rule),
-            Form::Dense => dense(&mut picture, &mut pyramid, &rule),
-        };
+        let mut memory = vec![u32::MAX; PushPull::words(width, height, Motion::Kept)];
+        let mut push_pull = PushPull::new(width, height, Motion::Kept, &mut memory).unwrap();
+        let picture = Picture::new(width, height, Colour::RGB888, &mut colours, &bits).unwrap();
+        let filled = push_pull.fill_picture(&mut picture.with_depths(&self.depths).unwrap(), inpainting);
         (colours, filled)
     }
 
@@ -73,9 +56,14 @@ impl Holed {
     }
 }
 
-fn rules() -> impl Strategy<Value = Rule> {
+fn inpaintings() -> impl Strategy<Value = Inpainting<'static>> {
     let threshold = prop_oneof![Just(u32::MAX), Just(0u32), 0..40u32];
-    (prop::sample::select(&Gamma::ALL[..]), threshold).prop_map(|(gamma, threshold)| Rule { gamma, threshold })
+    (prop::sample::select(&Gamma::ALL[..]), threshold).prop_map(|(gamma, threshold)| of(gamma, threshold))
+}
+
+/// An inpainting that counts in a plain picture.
+fn of(gamma: Gamma, threshold: u32) -> Inpainting<'static> {
+    Inpainting { gamma, threshold, ..Inpainting::classic() }
 }
 
 /// Sides of any parity; holes from none to all; depths of a few surfaces, or of one.
@@ -103,36 +91,8 @@ proptest! {
     #![proptest_config(config(600))]
 
     #[test]
-    fn sparse_dense_and_the_slow_text_agree(picture in pictures(), rule in rules()) {
-        let (colours, filled) = picture.filled(rule, Form::Sparse);
-        prop_assert_eq!(&picture.filled(rule, Form::Dense), &(colours.clone(), filled));
-        let width = picture.size[0] as usize;
-        let mut count = 0;
-        for channel in 0..3 {
-            let cell = |index: usize| slow::Cell {
-                validity: if picture.known[index] { 16 } else { 0 },
-                depth: picture.depths[index].into(),
-                value: i64::from(channels(picture.colours[index])[channel]) << 2,
-            };
-            let rows: slow::Level = (0..picture.size[1] as usize)
-                .map(|y| (0..width).map(|x| cell(y * width + x)).collect())
-                .collect();
-            let threshold = i64::from(rule.threshold);
-            let slow = slow::filled(&rows, rule.gamma, threshold);
-            count = 0;
-            for hole in picture.holes() {
-                let expected = slow[hole / width][hole % width].map(|value| (value + 2) >> 2);
-                count += u32::from(expected.is_some());
-                let before = i64::from(channels(picture.colours[hole])[channel]);
-                prop_assert_eq!(i64::from(channels(colours[hole])[channel]), expected.unwrap_or(before), "cell {}", hole);
-            }
-        }
-        prop_assert_eq!(filled, count);
-    }
-
-    #[test]
-    fn what_is_filled_lies_within_what_is_known_and_nothing_known_changes(picture in pictures(), rule in rules()) {
-        let (colours, filled) = picture.filled(rule, Form::Sparse);
+    fn what_is_filled_lies_within_what_is_known_and_nothing_known_changes(picture in pictures(), inpainting in inpaintings()) {
+        let (colours, filled) = picture.filled(&inpainting);
         let known = || picture.known.iter().zip(&picture.colours).filter(|(known, _)| **known).map(|(_, colour)| *colour);
         let changed: Vec<usize> = (0..colours.len()).filter(|&cell| colours[cell] != picture.colours[cell]).collect();
         prop_assert!(changed.iter().all(|&cell| !picture.known[cell]));
@@ -145,20 +105,20 @@ proptest! {
         }
         // Without a difference of depths, everything is filled as soon as anything is known.
         let holes = picture.holes().count() as u32;
-        if rule.threshold == u32::MAX {
+        if inpainting.threshold == u32::MAX {
             prop_assert_eq!(filled, if known().next().is_some() { holes } else { 0 });
         }
         prop_assert!(filled <= holes);
     }
 
     #[test]
-    fn what_lies_in_a_hole_does_not_matter(picture in pictures(), rule in rules(), other in 0..1u32 << 24) {
+    fn what_lies_in_a_hole_does_not_matter(picture in pictures(), inpainting in inpaintings(), other in 0..1u32 << 24) {
         let mut painted = picture.clone();
         for hole in picture.holes() {
             painted.colours[hole] = other;
         }
-        let (one, filled) = picture.filled(rule, Form::Sparse);
-        let (two, filled_too) = painted.filled(rule, Form::Sparse);
+        let (one, filled) = picture.filled(&inpainting);
+        let (two, filled_too) = painted.filled(&inpainting);
         prop_assert_eq!(filled, filled_too);
         let left = |cell: usize| one[cell] == picture.colours[cell] && two[cell] == other;
         prop_assert!((0..one.len()).all(|cell| one[cell] == two[cell] || left(cell)));
@@ -166,7 +126,7 @@ proptest! {
 
     /// In a mirror the halves that go up are others: a quarter of a step a level, at most.
     #[test]
-    fn a_mirrored_picture_gives_a_mirrored_result(mut picture in pictures(), rule in rules(), logs in (0..5u32, 0..5u32)) {
+    fn a_mirrored_picture_gives_a_mirrored_result(mut picture in pictures(), inpainting in inpaintings(), logs in (0..5u32, 0..5u32)) {
         let (width, height) = (1 << logs.0, 1 << logs.1);
         let cells = (width * height) as usize;
         picture.size = [width, height];
@@ -178,8 +138,8 @@ proptest! {
         (picture.colours, picture.known, picture.depths) = (
             picture.colours[..cells].to_vec(), picture.known[..cells].to_vec(), picture.depths[..cells].to_vec(),
         );
-        let (one, filled) = picture.filled(rule, Form::Sparse);
-        let (other, filled_too) = picture.mirrored().filled(rule, Form::Sparse);
+        let (one, filled) = picture.filled(&inpainting);
+        let (other, filled_too) = picture.mirrored().filled(&inpainting);
         prop_assert_eq!(filled, filled_too);
         let turned = Holed { colours: other, ..picture.clone() }.mirrored().colours;
         for (a, b) in one.iter().zip(&turned) {
@@ -188,64 +148,6 @@ proptest! {
             }
         }
     }
-}
-
-/// All validities of a width of three steps, all depths of two, values at both ends: 4 cells, 12^4 pulls and more.
-#[test]
-fn pulling_four_cells_is_what_the_rule_says_for_all_of_a_small_width() {
-    let one = |code: u32| {
-        let value = Tint::of(&Colour::GRAY8, [0, 255, 100][(code / 6 % 3) as usize]);
-        (Known { validity: [0, 5, 16][(code % 3) as usize], depth: code / 3 % 2 * 3, value }, code / 6 % 3)
-    };
-    let mut seen = 0;
-    for code in 0..18u32.pow(4) {
-        let cells = [code % 18, code / 18 % 18, code / 324 % 18, code / 5832].map(one).map(|(cell, _)| cell);
-        for gamma in Gamma::ALL {
-            for threshold in [0, 2, 3] {
-                let tie = code & 1;
-                let rule = Rule { gamma, threshold };
-                let pulled = pulled(&cells, &rule, tie);
-                let farthest = cells.iter().map(|cell| cell.depth).max().unwrap();
-                let kept = cells.iter().filter(|cell| cell.depth + threshold >= farthest);
-                let (sum, weighted) = kept.fold((0, 0), |(sum, weighted), cell| {
-                    (sum + cell.validity, weighted + cell.validity * cell.value.channels()[2])
-                });
-                assert_eq!((pulled.depth, pulled.validity), (farthest, gamma.raised(sum)));
-                if sum > 0 {
-                    let (mean, low) = (pulled.value.channels()[2], 2 * weighted);
-                    // The nearest whole number; of two equally near ones that of the place.
-                    let nearest = |mean: u32| low.abs_diff(2 * sum * mean);
-                    assert!(nearest(mean) < sum || nearest(mean) == sum && (2 * sum * mean > low) == (tie == 1));
-                }
-                seen += 1;
-            }
-        }
-    }
-    assert_eq!(seen, 9 * 18u32.pow(4));
-}
-
-/// A picture of one colour, of noise around it: from level to level it becomes neither brighter nor darker.
-#[test]
-fn brightness_does_not_drift_over_levels() {
-    const SIDE: u32 = 512;
-    let mut state = 1u32;
-    let mut next = || {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        state >> 24
-    };
-    let colours: Vec<u32> = (0..SIDE * SIDE).map(|_| next() * 0x01_0101).collect();
-    let mean = colours.iter().map(|&colour| u64::from(colour & 255)).sum::<u64>() as f64 / f64::from(SIDE * SIDE);
-    // One hole, and a weight of one all the way up: what it gets is the mean of the whole picture.
-    let mut memory = vec![Cell::default(); levels::cells(SIDE, SIDE)];
-    let mut states = vec![0; state_words(memory.len())];
-    let mut pyramid = Pyramid::new(SIDE, SIDE, &mut memory, &mut states).unwrap();
-    let mut held = colours.clone();
-    let known = vec![u32::MAX; (SIDE * SIDE / 32) as usize];
-    let mut picture = Masked::new(SIDE, SIDE, Colour::RGB888, &mut held, &known, &[]).unwrap();
-    dense(&mut picture, &mut pyramid, &Rule { gamma: Gamma::Zero, threshold: u32::MAX });
-    let top = pyramid.known(pyramid.index(pyramid.levels().top(), 0, 0)).value.channels()[1];
-    assert!((f64::from(top) / 4.0 - mean).abs() < 0.3, "{} and not {mean}", f64::from(top) / 4.0);
-    assert_eq!(held, colours);
 }
 
 #[test]
@@ -261,7 +163,7 @@ fn one_known_cell_fills_any_picture() {
                     depths: vec![7; cells],
                 };
                 (picture.colours[at], picture.known[at]) = (0xfe_0180, true);
-                let (colours, filled) = picture.filled(Rule { gamma, threshold: 0 }, Form::Sparse);
+                let (colours, filled) = picture.filled(&of(gamma, 0));
                 assert_eq!(filled as usize, cells - 1);
                 assert!(colours.iter().all(|&colour| colour == 0xfe_0180));
             }
@@ -286,53 +188,22 @@ fn foreground_stays_out_of_the_background() {
         depths: cells().map(|cell| [10, 900, 900][kind(cell)]).collect(),
     };
     for gamma in Gamma::ALL {
-        let (aware, _) = picture.filled(Rule { gamma, threshold: 50 }, Form::Sparse);
+        let (aware, _) = picture.filled(&of(gamma, 50));
         assert!(picture.holes().all(|hole| aware[hole] == 0x00_ff00), "{gamma:?}");
-        let (plain, _) = picture.filled(Rule { gamma, threshold: u32::MAX }, Form::Sparse);
+        let (plain, _) = picture.filled(&of(gamma, u32::MAX));
         assert!(picture.holes().any(|hole| plain[hole] >> 16 > 100), "{gamma:?}: a plain one bleeds");
     }
 }
 
-#[test]
-fn memory_that_does_not_fit_is_refused() {
-    let pyramid = |width, height, cells: usize, states: usize| {
-        let (mut memory, mut states) = (vec![Cell::<Tint>::default(); cells], vec![0; states]);
-        Pyramid::new(width, height, &mut memory, &mut states).map(|_| ()).unwrap_err()
-    };
-    assert_eq!(pyramid(8, 8, 20, 2), SetupError::TooShort { plane: "pyramid", need: 21, have: 20 });
-    assert_eq!(pyramid(8, 8, 21, 1), SetupError::TooShort { plane: "pyramid's states", need: 2, have: 1 });
-    for (width, height) in [(0, 8), (8, 0), (32769, 1)] {
-        assert_eq!(pyramid(width, height, 20, 2), SetupError::Size { width, height });
-    }
-    let picture = |colours: usize, known: usize, depths: usize| {
-        let (mut colours, known, depths) = (vec![0; colours], vec![0; known], vec![0; depths]);
-        Masked::new(8, 8, Colour::RGB888, &mut colours, &known, &depths).map(|_| ()).unwrap_err()
-    };
-    let short = |plane, need, have| SetupError::TooShort { plane, need, have };
-    assert_eq!(picture(63, 2, 0), short("picture", 64, 63));
-    assert_eq!(picture(64, 1, 0), short("mask", 2, 1));
-    assert_eq!(picture(64, 2, 1), short("depth", 64, 1));
-    // What a screen of these sizes needs.
-    assert_eq!(levels::cells(128, 64) * size_of::<Cell<Tint>>(), 21_848);
-    assert_eq!(levels::cells(320, 240) * size_of::<Cell<Tint>>(), 204_872);
-    assert_eq!(levels::cells(1024, 1024) * size_of::<Cell<Tint>>(), 2_796_200);
-}
-
-/// The tables of docs/notes/inpainting.md.
+/// The table of docs/notes/inpainting.md.
 #[test]
 fn memory_is_what_the_documents_say() {
     let sizes = [(128, 64), (320, 240), (1024, 1024)];
-    let line = |what: &str, cell: usize| {
-        let bytes = sizes.map(|(width, height)| {
-            let cells = levels::cells(width, height);
-            thousands(cells * cell + 4 * state_words(cells))
-        });
+    let line = |what: &str, motion: Motion| {
+        let bytes = sizes.map(|(width, height)| thousands(PushPull::words(width, height, motion) * size_of::<u32>()));
         format!("| {what} | {} |", bytes.join(" | "))
     };
-    let table = [
-        line("push-pull of colours", size_of::<Cell<Tint>>()),
-        line("push-pull with motion", size_of::<Cell<galpix_core::inpaint::paint::Moving>>()),
-    ];
+    let table = [line("push-pull of colours", Motion::Kept), line("push-pull with motion", Motion::Inpainted)];
     println!("{}", table.join("\n"));
     let documents =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/notes/inpainting.md")).unwrap();
