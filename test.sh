@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks everything, on a machine that has nothing but rustup: installs what is missing, then runs the steps below, goes on
-# after one that fails, and ends with one line a step. Ends with 1 if a step failed.
+# Checks everything, on a machine that has nothing but rustup: installs what is missing, then runs the steps below, goes
+# on after one that fails, and ends with one line a step. Ends with 1 if a step failed.
 #
 #   ./test.sh             all steps
 #   ./test.sh quick       format, width, clippy, unit tests and golden hashes: what to run between two edits
@@ -71,7 +71,8 @@ step_format() {
     bash -n tests/proofs/run.sh
 }
 
-# Comments and text wrap at 120 columns: rustfmt does not look at them. Tables, pictures, links and code blocks do not count.
+# Comments and text wrap at 120 columns: rustfmt does not look at them. Tables, pictures, links and code blocks do not
+# count.
 wide_lines() {
     case "$1" in
         *.md) awk '/^ *```/ { fence = !fence } !fence && !/^ *[|!]/ && !/https?:/' "$1" ;;
@@ -100,8 +101,8 @@ step_docs() {
     RUSTDOCFLAGS="-D warnings" cargo doc --locked -p galpix-core --features embedded-graphics,defmt --no-deps
 }
 
-# Unit tests, tests across the crates and doctests, with every fast pass compared with its reference (feature `check`). The
-# machine code has a step of its own.
+# Unit tests, tests across the crates and doctests, with every fast pass compared with its reference (feature `check`).
+# The machine code has a step of its own.
 step_tests() {
     cargo test --locked --workspace --all-features -- --skip codegen
 }
@@ -137,7 +138,8 @@ step_codegen() {
     cargo test --locked --workspace --all-features --test all -- codegen
 }
 
-# The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md alone.
+# The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md
+# alone.
 step_model() {
     command -v python3 >/dev/null || { skip "python3 is not installed"; return; }
     local seed
@@ -169,7 +171,8 @@ step_constant-time() {
     cargo run --locked --profile bench -p galpix-bench --bin constant_time -- 96x64
 }
 
-# Clippy has already compared every call into the standard library with rust-version; the language itself it does not know.
+# Clippy has already compared every call into the standard library with rust-version; the language itself it does not
+# know.
 step_msrv() {
     local least
     least="$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)"

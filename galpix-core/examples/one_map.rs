@@ -1,4 +1,5 @@
-//! One map in static memory and a window of rows in place of a second map: `cargo run -p galpix-core --example one_map`.
+//! One map in static memory and a window of rows in place of a second map: `cargo run -p galpix-core --example
+//! one_map`.
 
 use galpix_core::fixed::types::I32F32;
 use galpix_core::rolling::{Rolling, rows};

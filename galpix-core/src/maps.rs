@@ -16,8 +16,8 @@ pub trait Maps<'p> {
     /// How the galpixels are stored.
     type Format: Format;
 
-    /// Makes the next frame and shows it. Of layers the galpixels that moved, were lost, collided or saturated are counted
-    /// over all of them, everything else is the base's.
+    /// Makes the next frame and shows it. Of layers the galpixels that moved, were lost, collided or saturated are
+    /// counted over all of them, everything else is the base's.
     fn step(&mut self, settings: &Settings) -> Tally;
 
     /// Inpaints what the last step uncovered, see [`Controller::inpaint`]; returns the number of cells filled.
@@ -42,8 +42,8 @@ pub trait Maps<'p> {
     /// Returns the frame counter.
     fn frame(&self) -> u32;
 
-    /// Returns whether there is such a layer and its galpixels move from cell to cell, so that objects can be grafted into
-    /// it. A stationary-source layer is delivered as a whole.
+    /// Returns whether there is such a layer and its galpixels move from cell to cell, so that objects can be grafted
+    /// into it. A stationary-source layer is delivered as a whole.
     fn takes(&self, layer: usize) -> bool {
         layer == 0
     }

@@ -1,4 +1,5 @@
-//! Writes one PNG that shows every built-in scene, a row each, at the update and at three later times up to its last frame.
+//! Writes one PNG that shows every built-in scene, a row each, at the update and at three later times up to its last
+//! frame.
 //!
 //! `cargo run --release --example contact_sheet [FILE]`, by default `contact-sheet.png` in the current folder.
 

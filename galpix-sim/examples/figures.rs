@@ -1,4 +1,5 @@
-//! Makes the pictures of the documents anew, from the project's root: `cargo run --release -p galpix-sim --example figures`.
+//! Makes the pictures of the documents anew, from the project's root: `cargo run --release -p galpix-sim --example
+//! figures`.
 
 use std::path::Path;
 

@@ -1,6 +1,6 @@
-//! Searches the threshold tables of `Rounding::Searched`: the table whose worst drift over all residue classes is the smallest
-//! where updates enter at its first entry. The short ones all of them, the others by simulated annealing from the counter read
-//! backwards.
+//! Searches the threshold tables of `Rounding::Searched`: the table whose worst drift over all residue classes is the
+//! smallest where updates enter at its first entry. The short ones all of them, the others by simulated annealing from
+//! the counter read backwards.
 //!
 //! ```sh
 //! cargo run --release -p galpix-sim --example search_thresholds           # all tables, some minutes

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A [`source`] is a built-in scene with exact truth or a capture; the [`engine`] runs `galpix-core` over its update; a
-//! [`study`] compares frames with the truth and with sample-and-hold, by [`metric`] and [`certificate`]; [`output`] turns
-//! its rows into tables, files and pages. [`cli`] resolves what the command line asks for.
+//! [`study`] compares frames with the truth and with sample-and-hold, by [`metric`] and [`certificate`]; [`output`]
+//! turns its rows into tables, files and pages. [`cli`] resolves what the command line asks for.
 
 pub mod certificate;
 pub mod cli;

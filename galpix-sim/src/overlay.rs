@@ -1,10 +1,12 @@
-//! What is pinned over the picture, as a renderer or a capture delivers it: apart from the picture, so that it never moves.
+//! What is pinned over the picture, as a renderer or a capture delivers it: apart from the picture, so that it never
+//! moves.
 
 use galpix_core::overlay;
 
 use crate::picture::Picture;
 
-/// A surface of the display's size of which some pixels are pinned: they are shown in every frame, whatever moves underneath.
+/// A surface of the display's size of which some pixels are pinned: they are shown in every frame, whatever moves
+/// underneath.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Overlay {
     /// Pixels in a row.

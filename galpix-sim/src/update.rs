@@ -1,10 +1,10 @@
-//! A rendered picture with the motion of each pixel, as a renderer or a capture delivers it: in floating point, before a
-//! bit budget is chosen.
+//! A rendered picture with the motion of each pixel, as a renderer or a capture delivers it: in floating point, before
+//! a bit budget is chosen.
 //!
-//! *Units:* positions in pixels, x to the right, y down, sample (i, j) at the integer point (i, j). Time in display frames.
-//! *Depth* is normalised: 0 is the nearest depth that can be stored, 1 the farthest, and in between it is linear in
-//! *inverse* distance (`depth = 1 - near / z`), as in a z-buffer. Planes are then exactly linear in x and y, so that their
-//! Laplacian vanishes at any slant.
+//! *Units:* positions in pixels, x to the right, y down, sample (i, j) at the integer point (i, j). Time in display
+//! frames. *Depth* is normalised: 0 is the nearest depth that can be stored, 1 the farthest, and in between it is
+//! linear in *inverse* distance (`depth = 1 - near / z`), as in a z-buffer. Planes are then exactly linear in x and y,
+//! so that their Laplacian vanishes at any slant.
 
 use crate::overlay::Overlay;
 use crate::picture::Picture;

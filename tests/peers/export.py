@@ -161,8 +161,8 @@ def table(title, methods, rows, digits):
     lines = [f"### {title}", "", "| source | " + " | ".join(methods) + " |", "| --- |" + " ---: |" * len(methods)]
     for source, numbers in rows.items():
         lines.append(line(source, [numbers.get(method) for method in methods], digits))
-    # A source without a disoccluded cell has no numbers and no part in the mean. A fill that lacks a source which others have gets
-    # no mean: it would not compare with theirs.
+    # A source without a disoccluded cell has no numbers and no part in the mean. A fill that lacks a source which
+    # others have gets no mean: it would not compare with theirs.
     scored = [numbers for numbers in rows.values() if any(numbers.get(m) is not None for m in methods)]
     columns = [[numbers.get(m) for numbers in scored] for m in methods]
     means = [float(np.mean(column)) if column and None not in column else None for column in columns]

@@ -19,7 +19,8 @@ def main():
     schema = json.loads((vectors / "schema.json").read_text())
     Draft202012Validator.check_schema(schema)
     validator = Draft202012Validator(schema)
-    # One case of each kind and component count is enough: the files of a kind come from one type. The manifest is whole.
+    # One case of each kind and component count is enough: the files of a kind come from one type. The manifest is
+    # whole.
     manifest = json.loads((vectors / "manifest.json").read_text())
     checked = {}
     for entry in manifest["cases"]:

@@ -1,14 +1,15 @@
-//! Maps drawn as text: one panel for each thing that can be seen, side by side, and a diff where they are not as expected.
+//! Maps drawn as text: one panel for each thing that can be seen, side by side, and a diff where they are not as
+//! expected.
 //!
 //! ```text
 //! AB.a   35.0   >>.-
 //! colour depth  motion
 //! ```
 //!
-//! In every panel `.` is a hole. Colour: a letter, upper case for a galpixel, lower case for debris. Class: `#` galpixel,
-//! `!` just unobscured, `~` debris. Depth: sixteenths of the range, `*` for the far end. Motion: the velocity in cells a
-//! frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the display shows, be
-//! there a galpixel or not, `_` for black.
+//! In every panel `.` is a hole. Colour: a letter, upper case for a galpixel, lower case for debris. Class: `#`
+//! galpixel, `!` just unobscured, `~` debris. Depth: sixteenths of the range, `*` for the far end. Motion: the velocity
+//! in cells a frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the
+//! display shows, be there a galpixel or not, `_` for black.
 
 use std::fmt;
 

@@ -9,8 +9,8 @@ pub fn shared() -> Option<PathBuf> {
     folder.is_dir().then_some(folder)
 }
 
-/// The manifests below a folder, sorted; without those below a folder `field`, which holds inputs that importers misread:
-/// some of them must be refused.
+/// The manifests below a folder, sorted; without those below a folder `field`, which holds inputs that importers
+/// misread: some of them must be refused.
 ///
 /// Panics if a folder cannot be read.
 #[must_use]

@@ -47,8 +47,8 @@ impl Exact {
 
 /// What a frame adds to a position before the bits beyond `2^-frac` are cut off, in steps of `2^-frac`.
 ///
-/// The van der Corput sequence is the sum over the bits `b_i` of the frame counter of `b_i / 2^(i+1)`. A searched table is
-/// data: its entry for `dropped` bits, in units of the last of them.
+/// The van der Corput sequence is the sum over the bits `b_i` of the frame counter of `b_i / 2^(i+1)`. A searched table
+/// is data: its entry for `dropped` bits, in units of the last of them.
 #[must_use]
 pub fn offset_of_frame(rounding: Rounding, frame: u32, dropped: u32, frac: u32) -> Exact {
     let part = match rounding {

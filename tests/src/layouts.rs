@@ -1,5 +1,5 @@
-//! Layouts that the product does not need: tiny ones, whose states can be enumerated, and neighbours of the built-in ones
-//! that lack a field.
+//! Layouts that the product does not need: tiny ones, whose states can be enumerated, and neighbours of the built-in
+//! ones that lack a field.
 
 use galpix_core::{Colour, Layout};
 

@@ -2,19 +2,20 @@
 //!
 //! Algorithm 1 of the paper, in integers, with these readings:
 //!
-//! - Smaller depths are nearer here; the paper's are larger there. So PULL looks for the *farthest* of four depths, and what is
-//!   nearer than that by more than a threshold is foreground, and ignored. A hole takes part with the depth that
-//!   [`super::quads`] gave it.
+//! - Smaller depths are nearer here; the paper's are larger there. So PULL looks for the *farthest* of four depths, and
+//!   what is nearer than that by more than a threshold is foreground, and ignored. A hole takes part with the depth
+//!   that [`super::quads`] gave it.
 //! - `mean(colours x validity)` is meant as the normalised mean of the text: divided by the sum of the validities.
-//! - The validity is raised to gamma where it is pulled, "after each normalised convolution", so that it counts at all higher
-//!   levels as well.
+//! - The validity is raised to gamma where it is pulled, "after each normalised convolution", so that it counts at all
+//!   higher levels as well.
 //! - `mix(hicolour, locolour, hiValidity)` takes the finer colour by its validity and the rest from the coarser level.
 //!
-//! The paper does not say how the coarser level is sampled. Here linearly, by 9, 3, 3, 1 sixteenths, and of its cells those that
-//! are nearer than the cell itself by more than the threshold are left out too: foreground does not come in from above either.
+//! The paper does not say how the coarser level is sampled. Here linearly, by 9, 3, 3, 1 sixteenths, and of its cells
+//! those that are nearer than the cell itself by more than the threshold are left out too: foreground does not come in
+//! from above either.
 //!
-//! Every mean is one with small positive weights, see [`super::mean`], so a filled value lies within the range of the known
-//! ones, exactly.
+//! Every mean is one with small positive weights, see [`super::mean`], so a filled value lies within the range of the
+//! known ones, exactly.
 
 use super::settings::Inpainting;
 use super::validity::FULL;
@@ -24,8 +25,8 @@ use super::validity::FULL;
 pub struct Known<V> {
     /// How much of it is known, 0 to [`FULL`].
     pub validity: u32,
-    /// Its depth, below 2^[`DEPTH_BITS`](super::pyramid::DEPTH_BITS), smaller is nearer. Of a coarse cell the farthest below
-    /// it; 0 where there is none.
+    /// Its depth, below 2^[`DEPTH_BITS`](super::pyramid::DEPTH_BITS), smaller is nearer. Of a coarse cell the farthest
+    /// below it; 0 where there is none.
     pub depth: u32,
     /// The mean of what is known; unspecified where nothing is.
     pub value: V,
@@ -58,7 +59,8 @@ pub trait Value: Copy + Default {
     }
 }
 
-/// Sixteenths by which a cell takes of the four coarse cells around it: its own, that beside, that above or below, that across.
+/// Sixteenths by which a cell takes of the four coarse cells around it: its own, that beside, that above or below, that
+/// across.
 pub const LINEAR: [u32; 4] = [9, 3, 3, 1];
 
 /// Maps each of four. The `map` of arrays is not always inlined for small processors, and then goes through memory.
@@ -84,8 +86,8 @@ pub fn pulled<V: Value>(children: &[Known<V>; 4], inpainting: &Inpainting<'_>, t
     Known { validity: inpainting.gamma.raised(sum), depth, value }
 }
 
-/// Samples a coarser level for a cell of depth `depth`, linearly: from its own coarse cell, then that beside, that above or
-/// below, and the one across. Returns nothing if none of them counts.
+/// Samples a coarser level for a cell of depth `depth`, linearly: from its own coarse cell, then that beside, that
+/// above or below, and the one across. Returns nothing if none of them counts.
 #[inline(always)]
 #[must_use]
 pub fn sampled<V: Value>(coarse: &[Known<V>; 4], depth: u32, inpainting: &Inpainting<'_>, tie: u32) -> Option<V> {
@@ -126,8 +128,8 @@ pub const fn below(x: u32, y: u32) -> [(u32, u32); 4] {
     [(left, top), (left + 1, top), (left, top + 1), (left + 1, top + 1)]
 }
 
-/// Returns the places of the four cells of the level above that a cell is sampled from, in the order of [`sampled`]. A place
-/// left of or above the first one wraps to where there is none.
+/// Returns the places of the four cells of the level above that a cell is sampled from, in the order of [`sampled`]. A
+/// place left of or above the first one wraps to where there is none.
 #[inline(always)]
 pub const fn above(x: u32, y: u32) -> [(u32, u32); 4] {
     let (own, row) = (x >> 1, y >> 1);

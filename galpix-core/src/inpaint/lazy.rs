@@ -1,11 +1,12 @@
-//! The lazy evaluator of pyramids: a cell is pulled or completed when something asks for it, and before it what that needs.
+//! The lazy evaluator of pyramids: a cell is pulled or completed when something asks for it, and before it what that
+//! needs.
 //!
-//! It serves push-pull of maps and of plain pictures, and both pyramids of metamers. How the lowest levels are pulled is the
-//! business of what lies under the pyramid, its [`Base`]: row by row, or tile by tile. [`super::reference`] makes all cells of
-//! all levels instead, with the same bits.
+//! It serves push-pull of maps and of plain pictures, and both pyramids of metamers. How the lowest levels are pulled
+//! is the business of what lies under the pyramid, its [`Base`]: row by row, or tile by tile. [`super::reference`]
+//! makes all cells of all levels instead, with the same bits.
 //!
-//! A cell is overwritten only after its own coarse cell has been pulled from it, so whatever is pulled later is pulled from the
-//! same cells as if all had been pulled before the first was pushed.
+//! A cell is overwritten only after its own coarse cell has been pulled from it, so whatever is pulled later is pulled
+//! from the same cells as if all had been pulled before the first was pushed.
 
 use super::kernel::{above, below, pulled, pushed, sampled};
 use super::mean::tie;
@@ -25,8 +26,8 @@ pub trait Base<V: Stored> {
     fn pull(&mut self, pyramid: &mut Pyramid<'_, V>, level: u32, x: u32, y: u32);
 }
 
-/// A pyramid that is worked out as far as it is needed, and what lies under it. The methods call themselves as deep as there are
-/// levels, up and down.
+/// A pyramid that is worked out as far as it is needed, and what lies under it. The methods call themselves as deep as
+/// there are levels, up and down.
 #[derive(Debug)]
 pub struct Lazy<'f, 's, V: Stored, B> {
     /// The levels from 1 on.

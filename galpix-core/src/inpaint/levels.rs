@@ -1,7 +1,7 @@
 //! The sizes of a pyramid's levels.
 //!
-//! Level 0 is the picture. Each level has half the columns and rows of the one below, rounded up, down to a single cell: so
-//! any size has a pyramid. The levels from 1 on follow each other in one piece of memory.
+//! Level 0 is the picture. Each level has half the columns and rows of the one below, rounded up, down to a single
+//! cell: so any size has a pyramid. The levels from 1 on follow each other in one piece of memory.
 
 use crate::error::SetupError;
 

@@ -149,8 +149,8 @@ pub struct Uncovered<'m, 'p, F, V: OfGalpixel> {
 }
 
 impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
-    /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask stands for
-    /// all of them, and beyond the end of one no hole is filled.
+    /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask
+    /// stands for all of them, and beyond the end of one no hole is filled.
     pub fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
         let from = V::from(map.record().colour_format());
         Self { map, mask, from }

@@ -1,11 +1,11 @@
 //! Means with small weights, exact and without a division.
 //!
 //! `floor((n + bias) / s)` for a sum of weights `s` from 1 to 64 is a product with a reciprocal rounded upwards: with
-//! `R = ceil(2^k / s)` and `R s = 2^k + e`, `e < s`, the product is too large by less than `n e / (s 2^k)`, which cannot carry it
-//! over the next whole number while `n e < 2^k`.
+//! `R = ceil(2^k / s)` and `R s = 2^k + e`, `e < s`, the product is too large by less than `n e / (s 2^k)`, which
+//! cannot carry it over the next whole number while `n e < 2^k`.
 //!
-//! A mean that lies halfway between two numbers goes up or down by the parity of its place, so that a picture becomes neither
-//! brighter nor darker from level to level.
+//! A mean that lies halfway between two numbers goes up or down by the parity of its place, so that a picture becomes
+//! neither brighter nor darker from level to level.
 
 /// The largest sum of weights.
 const MOST: u32 = 64;
@@ -35,7 +35,8 @@ const SHORT_RECIPROCALS: [u32; MOST as usize + 1] = {
     table
 };
 
-/// Returns `sum / weight` to the nearest; halves go up if `tie` is 1 and down if it is 0. `weight` 1 to 64, `sum` below 2^31 - 64.
+/// Returns `sum / weight` to the nearest; halves go up if `tie` is 1 and down if it is 0. `weight` 1 to 64, `sum` below
+/// 2^31 - 64.
 #[inline(always)]
 #[must_use]
 pub fn divided(sum: u32, weight: u32, tie: u32) -> u32 {
@@ -67,8 +68,8 @@ pub const fn tie(x: u32, y: u32, level: u32) -> u32 {
     (x ^ y ^ level) & 1
 }
 
-/// Returns the mean of four signed numbers between -2^23 and 2^23, by weights whose sum is 1 to 64: to the nearest, ties as in
-/// [`divided`]. Never outside of the range of those with a weight.
+/// Returns the mean of four signed numbers between -2^23 and 2^23, by weights whose sum is 1 to 64: to the nearest,
+/// ties as in [`divided`]. Never outside of the range of those with a weight.
 #[inline(always)]
 #[must_use]
 pub fn signed(values: [i32; 4], weights: &[u32; 4], tie: u32) -> i32 {

@@ -1,14 +1,15 @@
 //! Stage 5: what is shown where nothing is known, from what is known around it.
 //!
 //! After a frame of fill mode [`Extend`](crate::FillMode::Extend) the cells of class
-//! [`JustUnobscured`](crate::Class::JustUnobscured) are exactly those that this frame uncovered: the *holes* of this stage. What
-//! it puts into them they carry with them as debris, so that an uncovered area is filled once, when it opens, and moves on with
-//! the picture. Fully-fledged galpixels are *known*; debris is not, so that nothing is made from what was made up.
+//! [`JustUnobscured`](crate::Class::JustUnobscured) are exactly those that this frame uncovered: the *holes* of this
+//! stage. What it puts into them they carry with them as debris, so that an uncovered area is filled once, when it
+//! opens, and moves on with the picture. Fully-fledged galpixels are *known*; debris is not, so that nothing is made
+//! from what was made up.
 //!
 //! 1. Stretched quads, where [`Inpainting::quads`] asks for them, give the holes the depth of the background.
 //! 2. [`PushPull`] pulls known cells into a pyramid and pushes what is missing down from it; foreground keeps out.
-//! 3. [`Metamer`], where a texture is wanted, adds to the same push-pull noise of the mean and the deviation that the bands of
-//!    each level have around the hole. The noise moves with the picture.
+//! 3. [`Metamer`], where a texture is wanted, adds to the same push-pull noise of the mean and the deviation that the
+//!    bands of each level have around the hole. The noise moves with the picture.
 //!
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
@@ -58,8 +59,8 @@ use crate::format::Format;
 use crate::format::rounding::Rounding;
 use crate::map::Galpixmap;
 
-/// Gives the holes of `map` the depth of the background, from stretched quads of the map `before`; returns how often one got
-/// deeper. It is what [`crate::Controller::inpaint`] begins with.
+/// Gives the holes of `map` the depth of the background, from stretched quads of the map `before`; returns how often
+/// one got deeper. It is what [`crate::Controller::inpaint`] begins with.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
 pub fn lay_background<F: Format>(

@@ -12,8 +12,8 @@ const CHANNEL_BITS: u32 = 10;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Tint(u32);
 
-/// How stored colours become tints: where each channel is, and where it goes. Loops by it become vector code, whatever the
-/// format.
+/// How stored colours become tints: where each channel is, and where it goes. Loops by it become vector code, whatever
+/// the format.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TintOf {
     down: [u32; 3],
@@ -144,8 +144,9 @@ impl Value for Tint {
 
 /// A colour, and the cell whose motion goes with it.
 ///
-/// Velocity and acceleration of a galpixel belong together, and with the fraction of its position: means of them would be the
-/// motion of nothing. So the motion is pulled and pushed by the same weights, as the choice of the one that weighs most.
+/// Velocity and acceleration of a galpixel belong together, and with the fraction of its position: means of them would
+/// be the motion of nothing. So the motion is pulled and pushed by the same weights, as the choice of the one that
+/// weighs most.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Moving {
     /// The colour.

@@ -31,8 +31,8 @@ fn enough(plane: &'static str, have: usize, need: usize) -> Result<(), SetupErro
 }
 
 impl<'p> Picture<'p> {
-    /// Takes a picture of `width` x `height` stored colours, row by row, without depth. Cell `c` is known if bit `c mod 32` of
-    /// word `c / 32` of `known` is set, and else a hole.
+    /// Takes a picture of `width` x `height` stored colours, row by row, without depth. Cell `c` is known if bit `c mod
+    /// 32` of word `c / 32` of `known` is set, and else a hole.
     ///
     /// *Errors:* a side of 0 or over 32768, a slice that is too short.
     pub fn new(
@@ -71,7 +71,8 @@ impl<'p> Picture<'p> {
         self.colours
     }
 
-    /// Runs a pass over a copy of the picture; returns the colours that the copy has afterwards, and what the pass returned.
+    /// Runs a pass over a copy of the picture; returns the colours that the copy has afterwards, and what the pass
+    /// returned.
     #[cfg(feature = "check")]
     pub(super) fn on_copy<R>(&self, pass: impl FnOnce(&mut Picture<'_>) -> R) -> (std::vec::Vec<u32>, R) {
         let mut colours = self.colours.to_vec();

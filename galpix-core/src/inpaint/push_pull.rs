@@ -1,7 +1,7 @@
 //! Push-pull: known cells are pulled up into ever coarser levels, and what is missing is pushed down from them.
 //!
-//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]. Where 2 % of the cells
-//! of a picture of 1024 x 1024 are holes, that takes a third of the time of all cells of all levels.
+//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]. Where 2 % of
+//! the cells of a picture of 1024 x 1024 are holes, that takes a third of the time of all cells of all levels.
 
 use super::kernel::{Known, below, each, pulled, sampled};
 use super::lazy::{Base, Lazy};
@@ -24,8 +24,8 @@ pub trait Holed {
     /// Returns columns and rows, each 1 to 32768.
     fn size(&self) -> [u32; 2];
 
-    /// Returns what is known of a cell of the picture, with the validity [`FULL`](super::validity::FULL) or 0. It is not called
-    /// for a cell beyond the border.
+    /// Returns what is known of a cell of the picture, with the validity [`FULL`](super::validity::FULL) or 0. It is
+    /// not called for a cell beyond the border.
     fn known(&self, x: u32, y: u32) -> Known<Self::Value>;
 
     /// Returns what is known of the four cells below a cell of level 1; nothing of those beyond the border.
@@ -41,21 +41,21 @@ pub trait Holed {
         each(below(x, y), |(x, y)| if x < width && y < height { self.known(x, y) } else { Known::default() })
     }
 
-    /// Returns depths and plain means of [`RUN`] blocks side by side, from that below cell `x` of row `y` of level 1 on, if all
-    /// of their cells are known and no surface ends among them, and nothing where that is not so.
+    /// Returns depths and plain means of [`RUN`] blocks side by side, from that below cell `x` of row `y` of level 1
+    /// on, if all of their cells are known and no surface ends among them, and nothing where that is not so.
     #[inline(always)]
     fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, Self::Value); RUN]> {
         let _ = (x, y, threshold);
         None
     }
 
-    /// Calls `value` for each hole that is to be filled, row by row, and puts there what it returns; returns how many got
-    /// something. What [`Self::known`] returns for any cell does not change by that.
+    /// Calls `value` for each hole that is to be filled, row by row, and puts there what it returns; returns how many
+    /// got something. What [`Self::known`] returns for any cell does not change by that.
     fn fill_holes(&mut self, value: impl FnMut(&Self, u32, u32) -> Option<Self::Value>) -> u32;
 }
 
-/// A picture under a pyramid. Of the levels up to [`Base::LEVELS`] all that is below a cell is pulled row by row before it, for
-/// there most is needed.
+/// A picture under a pyramid. Of the levels up to [`Base::LEVELS`] all that is below a cell is pulled row by row before
+/// it, for there most is needed.
 struct Rows<'p, P> {
     picture: &'p P,
     inpainting: &'p Inpainting<'p>,
@@ -120,8 +120,8 @@ impl<P: Holed> Base<P::Value> for Rows<'_, P> {
     }
 }
 
-/// Fills the holes of a picture from an untouched pyramid, and works out only what they need; returns how many were filled.
-/// Where the pyramid is of another size, only what lies within both is filled.
+/// Fills the holes of a picture from an untouched pyramid, and works out only what they need; returns how many were
+/// filled. Where the pyramid is of another size, only what lies within both is filled.
 pub fn fill<P: Holed>(picture: &mut P, pyramid: &mut Pyramid<'_, P::Value>, inpainting: &Inpainting<'_>) -> u32 {
     picture.fill_holes(|picture, x, y| {
         let mut lazy = Lazy { pyramid: &mut *pyramid, base: Rows { picture, inpainting } };
@@ -136,8 +136,8 @@ pub fn fill<P: Holed>(picture: &mut P, pyramid: &mut Pyramid<'_, P::Value>, inpa
 pub enum Motion {
     /// It stays the one that the fill mode gave.
     Kept,
-    /// It is inpainted with the colour, and with it the position in the cell and the tag: those of a galpixel of the same
-    /// surface.
+    /// It is inpainted with the colour, and with it the position in the cell and the tag: those of a galpixel of the
+    /// same surface.
     Inpainted,
 }
 
@@ -150,8 +150,8 @@ pub struct PushPull<'s> {
 }
 
 impl<'s> PushPull<'s> {
-    /// Returns the words of memory for maps or pictures of `width` x `height` cells, each 1 to 32768: about 2/3 of a word for
-    /// each of them, with motion a word.
+    /// Returns the words of memory for maps or pictures of `width` x `height` cells, each 1 to 32768: about 2/3 of a
+    /// word for each of them, with motion a word.
     #[must_use]
     pub const fn words(width: u32, height: u32, motion: Motion) -> usize {
         let cells = Levels::new(width, height).cells();
@@ -161,8 +161,8 @@ impl<'s> PushPull<'s> {
         }
     }
 
-    /// Lays push-pull for maps or pictures of `width` x `height` cells over `memory`, whose surplus stays untouched. What is in
-    /// the memory does not matter.
+    /// Lays push-pull for maps or pictures of `width` x `height` cells over `memory`, whose surplus stays untouched.
+    /// What is in the memory does not matter.
     ///
     /// *Errors:* a side of 0 or over 32768, memory shorter than [`Self::words`].
     pub fn new(width: u32, height: u32, motion: Motion, memory: &'s mut [u32]) -> Result<Self, SetupError> {
@@ -178,8 +178,9 @@ impl<'s> PushPull<'s> {
         self.motion
     }
 
-    /// Fills the holes of a picture: how many were filled. A picture has no motion, so it is filled alike with and without. Of
-    /// `inpainting` gamma and threshold count. Of a picture of another size, only what lies within both is filled.
+    /// Fills the holes of a picture: how many were filled. A picture has no motion, so it is filled alike with and
+    /// without. Of `inpainting` gamma and threshold count. Of a picture of another size, only what lies within both is
+    /// filled.
     pub fn fill_picture(&mut self, picture: &mut Picture<'_>, inpainting: &Inpainting<'_>) -> u32 {
         #[cfg(feature = "check")]
         let expected = picture.on_copy(|copy| super::reference::push_pull(copy, &self.levels, inpainting));

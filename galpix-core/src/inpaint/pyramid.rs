@@ -69,8 +69,8 @@ impl<'s, V: Stored> Pyramid<'s, V> {
         cells.saturating_mul(V::WORDS).saturating_add(cells.div_ceil(STATES as usize))
     }
 
-    /// Lays a pyramid over memory, whose surplus stays untouched, and makes all cells untouched. Returns nothing if the memory
-    /// is shorter than [`Self::words`].
+    /// Lays a pyramid over memory, whose surplus stays untouched, and makes all cells untouched. Returns nothing if the
+    /// memory is shorter than [`Self::words`].
     pub fn over(levels: Levels, memory: &'s mut [u32]) -> Option<Self> {
         let cells = levels.cells();
         let (values, rest) = memory.split_at_mut_checked(cells * V::WORDS)?;
@@ -86,7 +86,8 @@ impl<'s, V: Stored> Pyramid<'s, V> {
         &self.levels
     }
 
-    /// Returns the index of a cell of a level from 1 on; one beyond the memory for a place that the level does not have.
+    /// Returns the index of a cell of a level from 1 on; one beyond the memory for a place that the level does not
+    /// have.
     #[inline(always)]
     #[must_use]
     pub fn index(&self, level: u32, x: u32, y: u32) -> usize {

@@ -1,13 +1,13 @@
 //! Stretched quads: the depth of the background in what was uncovered (section 3.1 of the paper).
 //!
 //! Four neighbours of the map before are the corners of a quad. Where it is torn, for its corners go different ways, it
-//! connects foreground and background, and what opens between them has the farthest of its depths. The paper draws such quads with the
-//! others into a depth buffer that is *re-partitioned*, equation (1), so that one depth test does all: what is known is
-//! never overwritten, and of two stretched quads the farther one is seen. Here the known galpixels are in the map already, with
-//! their depths, so that only the stretched quads have to be drawn, and only holes look.
+//! connects foreground and background, and what opens between them has the farthest of its depths. The paper draws such
+//! quads with the others into a depth buffer that is *re-partitioned*, equation (1), so that one depth test does all:
+//! what is known is never overwritten, and of two stretched quads the farther one is seen. Here the known galpixels are
+//! in the map already, with their depths, so that only the stretched quads have to be drawn, and only holes look.
 //!
-//! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is a bullet
-//! hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
+//! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is
+//! a bullet hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
 
 use crate::format::Format;
 use crate::format::record::{Record, Words};
@@ -16,12 +16,12 @@ use crate::frame::step::{advance, cells_moved, thresholds};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say nothing of
-/// what lies between them; without a limit a hostile map would take for ever.
+/// The widest and highest quad that is drawn, in cells. Larger ones, between corners that part at such a speed, say
+/// nothing of what lies between them; without a limit a hostile map would take for ever.
 const LARGEST: i32 = 64;
 
-/// Returns a depth of `bits` bits in the re-partitioned range of `bits + 1` bits, equation (1): known surfaces in the nearer
-/// half, stretched quads in the farther one and turned round, so that the smaller number is what is seen.
+/// Returns a depth of `bits` bits in the re-partitioned range of `bits + 1` bits, equation (1): known surfaces in the
+/// nearer half, stretched quads in the farther one and turned round, so that the smaller number is what is seen.
 #[inline(always)]
 const fn partitioned(depth: u32, stretched: bool, bits: u32) -> u32 {
     if stretched { (2 << bits) - 1 - depth } else { depth }
@@ -50,8 +50,8 @@ struct Step<'s, 'p, 'q, F> {
     motion: Words,
 }
 
-/// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless the depth
-/// that the fill mode gave them is farther; returns how often it made one deeper.
+/// Gives the holes of `map` that stretched quads of the map `before` cover the depth of the background there, unless
+/// the depth that the fill mode gave them is farther; returns how often it made one deeper.
 ///
 /// `edges` is the edge map of the map before, `rounding` and `frame` are those of the step from one to the other.
 pub(crate) fn lay_background<F: Format>(
@@ -88,8 +88,8 @@ pub(crate) fn lay_background<F: Format>(
 /// Quads beside each other whose columns fit into a word of the edge map.
 const QUADS: u32 = u32::BITS - 1;
 
-/// Returns which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is not in the
-/// map is.
+/// Returns which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is
+/// not in the map is.
 #[inline(always)]
 fn on_edge(edges: &[u32], cell: u32) -> u32 {
     let word = |word: usize| edges.get(word).copied().unwrap_or(u32::MAX);
@@ -215,7 +215,8 @@ impl<F: Format> Step<'_, '_, '_, F> {
     }
 }
 
-/// Whether a place lies in the convex hull of four corners, its border included: in one of the four triangles that they form.
+/// Whether a place lies in the convex hull of four corners, its border included: in one of the four triangles that they
+/// form.
 fn covers(corners: &[Corner; 4], x: i32, y: i32) -> bool {
     let side = |a: Corner, b: Corner| {
         let cross = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
@@ -224,7 +225,8 @@ fn covers(corners: &[Corner; 4], x: i32, y: i32) -> bool {
     let within = |a: Corner, b: Corner, c: Corner| {
         let sides = [side(a, b), side(b, c), side(c, a)];
         let between = |from: i32, to: i32, at: i32| at >= from && at <= to;
-        // Corners on one line: all places on the line are on no side of it, those within the triangle's box are between them.
+        // Corners on one line: all places on the line are on no side of it, those within the triangle's box are between
+        // them.
         let box_x = between(a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x), x);
         let box_y = between(a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y), y);
         box_x && box_y && (sides.iter().all(|&side| side >= 0) || sides.iter().all(|&side| side <= 0))

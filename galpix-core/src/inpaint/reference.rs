@@ -1,4 +1,5 @@
-//! The reference of push-pull: all cells of all levels, in plain loops, by the kernel and by nothing else of the fast form.
+//! The reference of push-pull: all cells of all levels, in plain loops, by the kernel and by nothing else of the fast
+//! form.
 
 extern crate std;
 

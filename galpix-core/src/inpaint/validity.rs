@@ -1,8 +1,9 @@
 //! How much of what lies under a cell of a coarse level is known.
 //!
-//! Equal parts of a whole are counted: a cell of the picture is known or not, [`FULL`] or 0; a coarser one has the mean of the
-//! four below it, raised to gamma (section 3.3.1 of the paper) and rounded to sixteenths. Sixteen steps are enough to keep a small
-//! hole from mattering far up: a cell 31/32 of which are known counts as known, and nothing above it need be looked at.
+//! Equal parts of a whole are counted: a cell of the picture is known or not, [`FULL`] or 0; a coarser one has the mean
+//! of the four below it, raised to gamma (section 3.3.1 of the paper) and rounded to sixteenths. Sixteen steps are
+//! enough to keep a small hole from mattering far up: a cell 31/32 of which are known counts as known, and nothing
+//! above it need be looked at.
 
 /// The validity of a cell that is known.
 pub const FULL: u32 = 16;
@@ -50,8 +51,8 @@ impl Gamma {
         }
     }
 
-    /// Raises the mean of four validities to gamma, from their sum (0 to 64): 0 for 0, else 1 to [`FULL`]. To the nearest
-    /// sixteenth, halves upwards, but never so far down that what is known is forgotten.
+    /// Raises the mean of four validities to gamma, from their sum (0 to 64): 0 for 0, else 1 to [`FULL`]. To the
+    /// nearest sixteenth, halves upwards, but never so far down that what is known is forgotten.
     #[inline(always)]
     #[must_use]
     pub(super) const fn raised(self, sum: u32) -> u32 {

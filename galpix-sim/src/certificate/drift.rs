@@ -80,8 +80,8 @@ fn larger(mut one: Vec<i64>, other: Vec<i64>) -> Vec<i64> {
     one
 }
 
-/// The worst drift after each frame for one acceleration over all residues of the velocity, side by side so that the loop
-/// over them becomes vector code.
+/// The worst drift after each frame for one acceleration over all residues of the velocity, side by side so that the
+/// loop over them becomes vector code.
 fn worst_of(down: u32, a: i32, thresholds: &[i32]) -> Vec<i64> {
     let mask = (1i32 << down) - 1;
     let velocities = 1i32 << down.saturating_sub(1);

@@ -1,11 +1,11 @@
 //! The certificate of a budget: the worst-case position error of a galpixel, in pixels, over all states.
 //!
-//! The error after `n` frames has two parts. **Quantisation**: position, velocity and acceleration were stored to nearest,
-//! each at most half of its last bit off, which grows with 1, n and n²/2. **Drift**: each frame drops `down` bits of
-//! `2v + a` after adding a threshold `t`; with `u` the low bits of `2v + a`, the frame's error is `t - (u + t) mod 2^down`
-//! of those bits. That depends on `v mod 2^(down-1)` and `a mod 2^down` only, and so do all later frames, because
-//! `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma is proved
-//! in `docs/error-bounds.md`.
+//! The error after `n` frames has two parts. **Quantisation**: position, velocity and acceleration were stored to
+//! nearest, each at most half of its last bit off, which grows with 1, n and n²/2. **Drift**: each frame drops `down`
+//! bits of `2v + a` after adding a threshold `t`; with `u` the low bits of `2v + a`, the frame's error is `t - (u + t)
+//! mod 2^down` of those bits. That depends on `v mod 2^(down-1)` and `a mod 2^down` only, and so do all later frames,
+//! because `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma
+//! is proved in `docs/error-bounds.md`.
 //!
 //! The snap to a cell, at most half a pixel, is the same for any method and stands apart. A galpixel that saturates is
 //! counted, and outside of the certificate.
@@ -66,8 +66,8 @@ pub struct Certificate {
     pub drift_px: f64,
     /// The largest sum of both after any frame up to `tau_prop`.
     pub total_px: f64,
-    /// The largest drift if the update enters at any frame of the counter. Differs from `drift_px` for searched tables only,
-    /// which are certified for updates that enter at frame 0.
+    /// The largest drift if the update enters at any frame of the counter. Differs from `drift_px` for searched tables
+    /// only, which are certified for updates that enter at frame 0.
     pub drift_any_phase_px: f64,
     /// How the drift was found.
     pub method: Method,

@@ -29,8 +29,8 @@ pub struct Unreachable {
     pub best: f64,
 }
 
-/// The component of the fewest motion bits, with the integer bits of `ranges`, whose certificate for `prop` frames is at
-/// most `max_error` pixels; of several, the one with the smallest error.
+/// The component of the fewest motion bits, with the integer bits of `ranges`, whose certificate for `prop` frames is
+/// at most `max_error` pixels; of several, the one with the smallest error.
 ///
 /// *Errors:* if there is none.
 pub fn smallest(

@@ -1,4 +1,5 @@
-//! What is put into holes, as the command line means it: a rung of the core's ladder, or inpainting on top of its richest one.
+//! What is put into holes, as the command line means it: a rung of the core's ladder, or inpainting on top of its
+//! richest one.
 
 use galpix_core::FillMode;
 

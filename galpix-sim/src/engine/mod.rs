@@ -1,4 +1,5 @@
-//! The engine over memory of the host: one update in, with layers beside it or without, frames out, with what is needed to judge them.
+//! The engine over memory of the host: one update in, with layers beside it or without, frames out, with what is needed
+//! to judge them.
 
 mod base;
 pub mod fill;
@@ -244,8 +245,8 @@ impl Frame<'_> {
             .collect()
     }
 
-    /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for each layer above
-    /// the base; [`NO_ORIGIN`] where it shows none.
+    /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for
+    /// each layer above the base; [`NO_ORIGIN`] where it shows none.
     pub fn origins(&self) -> impl Iterator<Item = u32> {
         display_cells(self.map.grid()).map(|cell| self.origins[cell as usize])
     }
@@ -256,7 +257,8 @@ impl Frame<'_> {
         self.map
     }
 
-    /// Every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x, y) in cells of the map.
+    /// Every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x, y) in
+    /// cells of the map.
     pub fn places(&self) -> impl Iterator<Item = (u32, [f64; 2])> {
         let grid = *self.map.grid();
         (0..grid.height() as i32).flat_map(move |y| {

@@ -82,7 +82,8 @@ impl Window {
         Some(Self { left, top, width: right - left, height: bottom - top })
     }
 
-    /// A window of `width` x `height` cells, or as many as there are, whose middle is that of this one as far as it fits.
+    /// A window of `width` x `height` cells, or as many as there are, whose middle is that of this one as far as it
+    /// fits.
     #[must_use]
     pub fn resized(self, size: [usize; 2], within: [usize; 2]) -> Self {
         let place = |from: usize, length: usize, size: usize, within: usize| {

@@ -7,8 +7,9 @@ use crate::picture::Picture;
 /// Half the side of the window: 7x7 cells.
 const RADIUS: usize = 3;
 
-/// The mean over the counted cells of the variance of luma (code values squared) in the 7x7 cells around each, as many of them
-/// as the picture has. Cells that do not count are set to the truth, so that only what is shown in the others differs.
+/// The mean over the counted cells of the variance of luma (code values squared) in the 7x7 cells around each, as many
+/// of them as the picture has. Cells that do not count are set to the truth, so that only what is shown in the others
+/// differs.
 ///
 /// With the truth as the shown picture it is what the figure should be: less is blurred, more is noisy.
 #[must_use]

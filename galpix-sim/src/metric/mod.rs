@@ -1,8 +1,10 @@
-//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough and how restless it is.
+//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough and how
+//! restless it is.
 //!
-//! The first three take the shown picture first, the truth second, and an optional mask of the cells that count (row-major, of
-//! the pictures' size; everything counts without it). They answer `None`, never panic, where there is nothing sound to
-//! say: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no pixel, none that counts.
+//! The first three take the shown picture first, the truth second, and an optional mask of the cells that count
+//! (row-major, of the pictures' size; everything counts without it). They answer `None`, never panic, where there is
+//! nothing sound to say: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no
+//! pixel, none that counts.
 //!
 //! | metric | 8-bit sRGB becomes | range, best |
 //! | --- | --- | --- |
@@ -32,8 +34,8 @@ pub const PSNR_CAP_DB: f64 = 100.0;
 /// pixels seen from 0.7 m, about 67.
 pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
 
-/// Peak signal-to-noise ratio in decibels, `10 log10(255² / MSE)`, the mean squared error taken over all three channels of
-/// the counted cells, in 8-bit code values. At most [`PSNR_CAP_DB`].
+/// Peak signal-to-noise ratio in decibels, `10 log10(255² / MSE)`, the mean squared error taken over all three channels
+/// of the counted cells, in 8-bit code values. At most [`PSNR_CAP_DB`].
 #[must_use]
 pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
     comparable(shown, truth, counted)?;
@@ -52,8 +54,8 @@ pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Op
     Some((10.0 * (255.0_f64.powi(2) / mean).log10()).min(PSNR_CAP_DB))
 }
 
-/// The PSNR of several pictures of one size taken together, from each one's: that of their mean squared error, so that a picture
-/// without error among them does not outweigh the others. At most [`PSNR_CAP_DB`], which it also is of none.
+/// The PSNR of several pictures of one size taken together, from each one's: that of their mean squared error, so that
+/// a picture without error among them does not outweigh the others. At most [`PSNR_CAP_DB`], which it also is of none.
 #[must_use]
 pub fn pooled_db(decibels: &[f64]) -> f64 {
     let errors: f64 = decibels.iter().map(|db| if *db >= PSNR_CAP_DB { 0.0 } else { 10_f64.powf(-db / 10.0) }).sum();
@@ -63,9 +65,9 @@ pub fn pooled_db(decibels: &[f64]) -> f64 {
 
 /// Mean structural similarity of luma (Rec. 709 weights on the sRGB code values): 1 for identical pictures.
 ///
-/// As Wang et al. 2004 define it, with Gaussian windows of 11x11 and sigma 1.5, averaged over the counted cells whose window
-/// lies inside the picture (over all counted cells where there is none). Cells that do not count are set to the truth, so
-/// that they do not spoil the windows of their neighbours.
+/// As Wang et al. 2004 define it, with Gaussian windows of 11x11 and sigma 1.5, averaged over the counted cells whose
+/// window lies inside the picture (over all counted cells where there is none). Cells that do not count are set to the
+/// truth, so that they do not spoil the windows of their neighbours.
 #[must_use]
 pub fn ssim(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
     comparable(shown, truth, counted)?;
@@ -75,7 +77,8 @@ pub fn ssim(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
 /// Mean FLIP error (Andersson et al. 2020) over the counted cells, at [`PIXELS_PER_DEGREE`]: 0 for identical pictures.
 ///
 /// What is drawn is how visible the difference is when one flips between the two pictures. Cells that do not count are
-/// set to the truth, so that they cannot bleed into their neighbours through FLIP's filters, and are left out of the mean.
+/// set to the truth, so that they cannot bleed into their neighbours through FLIP's filters, and are left out of the
+/// mean.
 #[must_use]
 pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
     comparable(shown, truth, counted)?;
@@ -97,8 +100,8 @@ pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
     Some(sum / cells as f64)
 }
 
-/// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to tell, 30 and below is poor. `None` for
-/// pictures with a side below 8 pixels.
+/// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to tell, 30 and below is poor.
+/// `None` for pictures with a side below 8 pixels.
 #[must_use]
 pub fn ssimulacra2(shown: &Picture, truth: &Picture) -> Option<f64> {
     comparable(shown, truth, None)?;
@@ -195,8 +198,8 @@ mod tests {
     #[test]
     fn ssim_of_mirror_images_is_that_of_their_gaussian_moments() {
         // A row of period 2, 0 and 100 in turn: in the middle the Gaussian mean of every other cell is 50 to 5 digits,
-        // so means 50, variances 2500, covariance -2500: (-5000 + C2) / (5000 + C2) = -0.9769 with C2 = (0.03 * 255)² = 58.5225;
-        // at the ends the mirror makes a pair of equals.
+        // so means 50, variances 2500, covariance -2500: (-5000 + C2) / (5000 + C2) = -0.9769 with C2 = (0.03 * 255)² =
+        // 58.5225; at the ends the mirror makes a pair of equals.
         let row = |first: usize| Picture {
             width: 41,
             height: 1,

@@ -1,5 +1,5 @@
-//! Structural similarity as Wang, Bovik, Sheikh and Simoncelli define it (2004): Gaussian windows, so that figures compare
-//! with published ones.
+//! Structural similarity as Wang, Bovik, Sheikh and Simoncelli define it (2004): Gaussian windows, so that figures
+//! compare with published ones.
 
 use crate::picture::Picture;
 

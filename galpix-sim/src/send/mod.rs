@@ -1,12 +1,12 @@
 //! Updates over a serial line to a display controller: fitted to its panel, stored as its maps store them, row by row.
 //!
 //! The host asks how the device is, lets it show nothing but what is sent, takes its frame counter as the stamp of an
-//! update, sends it, and asks again: the device's own counters say what arrived. A scene gives a new update every few frames
-//! *of the device*, at the scene's time then; a device in lockstep is told to make them. All galpixels of an update carry its
-//! number as their tag. What the frames are is in `docs/link.md`.
+//! update, sends it, and asks again: the device's own counters say what arrived. A scene gives a new update every few
+//! frames *of the device*, at the scene's time then; a device in lockstep is told to make them. All galpixels of an
+//! update carry its number as their tag. What the frames are is in `docs/link.md`.
 //!
-//! While an update is on its way the device is held in lockstep: lines are so slow that a whole update takes longer than the
-//! device makes up for. On one that went on, 55 to 72 of the 192 frames of a small panel arrived in time.
+//! While an update is on its way the device is held in lockstep: lines are so slow that a whole update takes longer
+//! than the device makes up for. On one that went on, 55 to 72 of the 192 frames of a small panel arrived in time.
 
 mod address;
 mod error;
@@ -226,7 +226,8 @@ fn panel_of(wanted: Option<Description>, status: Option<&Status>, to: &str) -> R
     }
 }
 
-/// The galpixels of a source `time` frames after its update, on a panel; their tag is `tag`, of which they keep the low bits.
+/// The galpixels of a source `time` frames after its update, on a panel; their tag is `tag`, of which they keep the low
+/// bits.
 fn galpixels(source: &Source, time: u32, panel: &Description, tag: u32) -> Vec<Galpixel> {
     let (width, height) = (usize::from(panel.width), usize::from(panel.height));
     let mut galpixels = match source {
@@ -252,7 +253,8 @@ fn hold(talk: &mut Talk<'_>, on: bool) -> Result<Option<Status>, SendError> {
     Ok(status)
 }
 
-/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it makes these frames because it is told.
+/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it makes these frames because it
+/// is told.
 fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<Status, SendError> {
     let mut moved = Instant::now();
     let mut told: Option<(u32, Instant)> = None;

@@ -1,12 +1,13 @@
 //! An update brought to the size of a panel.
 //!
-//! The display's centre comes to the panel's centre, and what the panel's shape cannot show is cropped, alike on both sides.
-//! A scene is sampled anew at the centre of each cell: exact in position and motion. Of a capture each cell takes the sample
-//! that is nearest to its centre, and puts it there: at most half a pixel of the source beside its place.
+//! The display's centre comes to the panel's centre, and what the panel's shape cannot show is cropped, alike on both
+//! sides. A scene is sampled anew at the centre of each cell: exact in position and motion. Of a capture each cell
+//! takes the sample that is nearest to its centre, and puts it there: at most half a pixel of the source beside its
+//! place.
 //!
-//! That half pixel could be kept in the galpixel's offset. It is not, because neighbours would then stand unevenly, some
-//! less than a cell apart, and meet in one cell as soon as they move: of `captures/marbles` on a panel of 128 x 64, 2613 of
-//! 8192 galpixels were left after 8 frames, against 6914 at the centres.
+//! That half pixel could be kept in the galpixel's offset. It is not, because neighbours would then stand unevenly,
+//! some less than a cell apart, and meet in one cell as soon as they move: of `captures/marbles` on a panel of 128 x
+//! 64, 2613 of 8192 galpixels were left after 8 frames, against 6914 at the centres.
 //!
 //! *Units:* positions of the source in its pixels, (0, 0) the centre of the display's first pixel.
 
@@ -63,8 +64,8 @@ impl Fit {
     }
 }
 
-/// The galpixels of an update on a panel of `width` x `height` cells, row by row; samples whose motion is unknown become
-/// empty cells with their colour. No galpixel where the update or the panel is empty.
+/// The galpixels of an update on a panel of `width` x `height` cells, row by row; samples whose motion is unknown
+/// become empty cells with their colour. No galpixel where the update or the panel is empty.
 #[must_use]
 pub fn update(update: &Update, width: usize, height: usize) -> Vec<Galpixel> {
     let Some(fit) = Fit::new([update.display_width(), update.display_height()], [width, height]) else {
@@ -80,7 +81,8 @@ pub fn update(update: &Update, width: usize, height: usize) -> Vec<Galpixel> {
         .collect()
 }
 
-/// The galpixels of a scene at time `t` on a panel of `width` x `height` cells, row by row. None where the panel is empty.
+/// The galpixels of a scene at time `t` on a panel of `width` x `height` cells, row by row. None where the panel is
+/// empty.
 #[must_use]
 pub fn scene(scene: &dyn Scene, t: f64, width: usize, height: usize) -> Vec<Galpixel> {
     let Some(fit) = Fit::new([scene.width(), scene.height()], [width, height]) else {

@@ -36,7 +36,8 @@ fn page_values_and_pictures_say_the_same() {
     assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
     assert_eq!(page.matches("<tr><td").count(), fills.len());
 
-    // The pictures: those that the index lists, the mask as large as the document says, and what no mask covers is the same in all.
+    // The pictures: those that the index lists, the mask as large as the document says, and what no mask covers is the
+    // same in all.
     let mut listed = 0;
     for (frame, cells) in
         index["sources"][0]["frames"].as_array().unwrap().iter().zip(source["cells"].as_array().unwrap())

@@ -13,8 +13,8 @@ fn number(value: &Value) -> f64 {
     value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }
 
-/// At a lower rate than updates of the whole view, objects at their own rates are nearer to the truth in every figure, and what
-/// a queue refuses is counted.
+/// At a lower rate than updates of the whole view, objects at their own rates are nearer to the truth in every figure,
+/// and what a queue refuses is counted.
 #[test]
 fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
     let folder = folder();

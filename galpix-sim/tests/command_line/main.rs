@@ -56,8 +56,8 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_str(&done(folder, arguments)).expect("one JSON document and nothing else")
 }
 
-/// The sentence of a call that is refused: exit code 2, one line on standard error that holds each of `words`, nothing on
-/// standard output.
+/// The sentence of a call that is refused: exit code 2, one line on standard error that holds each of `words`, nothing
+/// on standard output.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) -> String {
     let output = output(folder, arguments);
     let sentence = text(&output.stderr);

@@ -61,8 +61,9 @@ fn no_galpixel_of_a_second_order_scene_is_farther_off_than_the_certificate() {
     assert!(scenes >= 5, "only {scenes} scenes are of second order");
 }
 
-/// The largest error of each frame, the first after `phase` of the frame counter, over all low bits of velocity and acceleration, with position, velocity and acceleration
-/// each a hair less than half a last bit from what can be stored.
+/// The largest error of each frame, the first after `phase` of the frame counter, over all low bits of velocity and
+/// acceleration, with position, velocity and acceleration each a hair less than half a last bit from what can be
+/// stored.
 ///
 /// One state a row, so that none meets another.
 fn worst_errors(bits: Bits, rounding: Rounding, prop: u32, phase: u32) -> Vec<f64> {

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use galpix_core::FillMode;
-use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::study::run::{self as experiment, Request, RunReport};
 use galpix_tests::captures::{manifests, shared};
 
-/// PSNR in dB of a forward warp in floating point with velocity and acceleration, to the nearest pixel and without fill,
-/// over the pixels that it reached; by capture and frame. From the captures' own description.
+/// PSNR in dB of a forward warp in floating point with velocity and acceleration, to the nearest pixel and without
+/// fill, over the pixels that it reached; by capture and frame. From the captures' own description.
 const FLOAT_WARP: [(&str, &[(u32, f64)]); 12] = [
     ("teddy", &[(16, 29.73)]),
     ("tsukuba", &[(16, 32.33)]),
@@ -33,8 +33,8 @@ const MEAN_DB: f64 = -0.3;
 /// A single row may lie this much below it.
 const ROW_DB: f64 = -1.0;
 
-/// Rows that lie farther below, each a little under the difference seen: -3.43, -1.14, -1.83 and -1.17 dB. A galpixel that
-/// loses a collision is gone for good; a warp straight from the update to the frame loses it in that frame only.
+/// Rows that lie farther below, each a little under the difference seen: -3.43, -1.14, -1.83 and -1.17 dB. A galpixel
+/// that loses a collision is gone for good; a warp straight from the update to the frame loses it in that frame only.
 const KNOWN_EXCEPTIONS: [(&str, u32, f64); 4] = [
     ("blender-pan", 32, -3.6),
     ("blender-pan-aa", 4, -1.3),

@@ -1,12 +1,12 @@
 //! The fills side by side: figures that can be what they say, and foreground that stays out of what it uncovered.
 
-use galpix_sim::source::capture::ImportOptions;
-use galpix_sim::source::Source;
-use galpix_sim::study::run::Request;
 use galpix_sim::engine::fill::{Fill, Gamma};
+use galpix_sim::source::Source;
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::study::fills::case::{self, CLASSIC};
 use galpix_sim::study::fills::report::{FillReport, SourceReport};
 use galpix_sim::study::fills::{Plan, study};
+use galpix_sim::study::run::Request;
 
 fn compared(name: &str, frames: u32, fills: &[&str], gamma: Option<Gamma>, fovea: Option<u32>) -> SourceReport {
     let mut cases = case::all(gamma, fovea);

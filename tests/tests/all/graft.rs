@@ -7,8 +7,8 @@ use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
 use galpix_tests::stage::{self, number};
 
 /// Takes all scenes `late` frames further, once as maps without any fill, and once galpixel by galpixel into a map of
-/// something else: the cells that an update in time reaches hold the same words, unless something was lost in a collision
-/// on the way that is there in the end.
+/// something else: the cells that an update in time reaches hold the same words, unless something was lost in a
+/// collision on the way that is there in the end.
 fn late_is_in_time(format: Dynamic, rounding: Rounding, late: u32) {
     for stage in stage::all() {
         let content = stage.content(format, |_| ());
@@ -97,7 +97,10 @@ fn without_a_tag_the_last_one_wins() {
             cell_words(&map, 0)
         });
         for words in [&near, &far, &near, &near] {
-            assert_eq!(graft(&mut map, (0, 0), words, Delay { stamp: 4, now: 4, rounding: Rounding::Nearest }), Grafted::Put(0));
+            assert_eq!(
+                graft(&mut map, (0, 0), words, Delay { stamp: 4, now: 4, rounding: Rounding::Nearest }),
+                Grafted::Put(0)
+            );
             assert_eq!(&cell_words(&map, 0), words);
         }
     });

@@ -1,15 +1,15 @@
 //! What was hidden: samples are counted right, culling keeps what is needed, and no picture gets worse for it.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
-use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::engine::{Beside, Engine, EngineError, MAX_BESIDE, NO_ORIGIN};
+use galpix_sim::picture::Picture;
 use galpix_sim::source::Source;
-use galpix_sim::study::run::{self as experiment, ExperimentError, Request, RunReport};
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::hidden::{Arrangement, Kind, SEPARATION, Way};
+use galpix_sim::source::scene;
 use galpix_sim::study::layers::report::SourceReport;
 use galpix_sim::study::layers::{Plan, Study, study, ways};
-use galpix_sim::picture::Picture;
-use galpix_sim::source::scene;
+use galpix_sim::study::run::{self as experiment, ExperimentError, Request, RunReport};
 use galpix_sim::update::{Known, Sample, Update};
 
 const SECOND: Way = Way { kind: Kind::Second { separation: SEPARATION }, ..Way::ONE };
@@ -80,7 +80,8 @@ fn a_park_is_whole_again_behind_the_ball() {
     assert!(wrong < 60, "{wrong} of {} cells", park.len());
 }
 
-/// On scenes of many surfaces, with an update every eight frames. (Of a single thing that flies as far as the ball all is uncovered.)
+/// On scenes of many surfaces, with an update every eight frames. (Of a single thing that flies as far as the ball all
+/// is uncovered.)
 #[test]
 fn culling_keeps_less_than_half_and_loses_next_to_nothing() {
     for (name, frames) in DISOCCLUDED.into_iter().filter(|(name, _)| *name != "ball") {
@@ -111,7 +112,8 @@ fn no_scene_gets_worse_with_what_is_shipped() {
         let psnr = |report| mean(report, |truth| truth.psnr_db.unwrap());
         let flip = |report| mean(report, |truth| truth.flip.unwrap());
         println!("{name}: {:.3} -> {:.3} dB, {:.5} -> {:.5}", psnr(&one), psnr(&layered), flip(&one), flip(&layered));
-        // Where the motion is not of second order a rim leaves that truly does not, and what is behind is shown: no more than this.
+        // Where the motion is not of second order a rim leaves that truly does not, and what is behind is shown: no
+        // more than this.
         let (worse_db, worse) = if ["disc", "near-plane"].contains(&name) { (0.2, 0.002) } else { (0.0, 0.0) };
         assert!(psnr(&layered) >= psnr(&one) - worse_db, "{name}: {} dB, {} dB", psnr(&layered), psnr(&one));
         assert!(flip(&layered) <= flip(&one) + worse, "{name}: {}, {}", flip(&layered), flip(&one));

@@ -2,10 +2,10 @@
 
 use galpix_core::{Bits, Format, Layout, Settings};
 use galpix_sim::engine::Engine;
-use galpix_sim::source::Source;
-use galpix_sim::study::run::{self as experiment, Request};
 use galpix_sim::engine::fill::Fill;
+use galpix_sim::source::Source;
 use galpix_sim::source::scene;
+use galpix_sim::study::run::{self as experiment, Request};
 use galpix_sim::update::Update;
 use galpix_tests::lent::words;
 use galpix_tests::profiles::dynamic;

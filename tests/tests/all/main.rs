@@ -1,4 +1,5 @@
-//! What holds across the crates, in one program: each module a subject. The tests of the machine code begin with `codegen_`.
+//! What holds across the crates, in one program: each module a subject. The tests of the machine code begin with
+//! `codegen_`.
 
 mod bounds;
 mod captures;

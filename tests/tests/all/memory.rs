@@ -1,4 +1,5 @@
-//! The memory that a budget promises is the memory that is lent, and every setup that cannot be is refused with a sentence.
+//! The memory that a budget promises is the memory that is lent, and every setup that cannot be is refused with a
+//! sentence.
 
 use fixed::types::I32F32;
 use galpix_core::record::{Component, Shave};
@@ -126,8 +127,8 @@ fn absent_fields_take_no_bit() {
     }
 }
 
-/// What a person writes comes back, rounded to the budget: half a last bit away at most; what is too much is clamped and
-/// counted.
+/// What a person writes comes back, rounded to the budget: half a last bit away at most; what is too much is clamped
+/// and counted.
 fn stored_is_loaded(layout: Layout, bits: Bits) {
     let mut starts = [0];
     let grid = Grid::new(1, 1, Margin::NONE, &mut starts).unwrap();

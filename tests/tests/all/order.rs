@@ -113,8 +113,8 @@ fn sum(a: Tally, b: Tally) -> Tally {
     }
 }
 
-/// Maps that are hard on a pass that treats neighbours at once: galpixels that mostly move alike by a few cells, with few
-/// different depths, a hole or a piece of debris here and there, and every pattern of two ways within a run.
+/// Maps that are hard on a pass that treats neighbours at once: galpixels that mostly move alike by a few cells, with
+/// few different depths, a hole or a piece of debris here and there, and every pattern of two ways within a run.
 fn nearly_alike(format: Dynamic, depth_levels: u32) -> Tally {
     let record = format.record();
     let mut total = Tally::default();

@@ -1,11 +1,11 @@
 //! A plan never claims what its certificate does not hold.
 
 use galpix_core::Static;
-use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::Source;
-use galpix_sim::study::run::Request;
-use galpix_sim::study::plan::{self, Planning};
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::scene;
+use galpix_sim::study::plan::{self, Planning};
+use galpix_sim::study::run::Request;
 use galpix_tests::captures::{manifests, shared};
 
 fn planned(source: &Source, max_error: f64) -> Planning {

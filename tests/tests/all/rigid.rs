@@ -20,7 +20,8 @@ fn drawn(generator: &mut impl rand::Rng, width: f64) -> I32F32 {
     I32F32::from_num((f64::from(random::below(generator, 4096)) / 4096.0 - 0.5) * width)
 }
 
-/// Patches of 4x4 with one motion and one sub-pixel phase, over 16 frames: each frame shows a square without gap or overlap.
+/// Patches of 4x4 with one motion and one sub-pixel phase, over 16 frames: each frame shows a square without gap or
+/// overlap.
 #[test]
 fn a_rigid_patch_is_never_torn() {
     let shape = Shape::plain(48, 48);

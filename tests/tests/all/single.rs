@@ -1,5 +1,5 @@
-//! Random maps of every layout through all ways of making a frame. With the core's feature `check` each pass compares the
-//! form that it takes with every other one as it goes.
+//! Random maps of every layout through all ways of making a frame. With the core's feature `check` each pass compares
+//! the form that it takes with every other one as it goes.
 
 use galpix_core::{Dynamic, Format, Settings, Tally};
 use galpix_tests::lent::{Lent, Mode, Run, Shape, assert_same, with_rolling, words};

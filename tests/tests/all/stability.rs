@@ -34,7 +34,8 @@ fn no_case_is_unstable_under_any_budget_and_rounding() {
     }
 }
 
-/// With an update every tau_prop frames the error does not grow: the last updates are no worse than the bound of the first.
+/// With an update every tau_prop frames the error does not grow: the last updates are no worse than the bound of the
+/// first.
 #[test]
 fn nothing_grows_from_update_to_update() {
     let setting = Setting::new(PAPER).unwrap();

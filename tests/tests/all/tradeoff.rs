@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use galpix_core::{Demand, Dynamic, FillMode, Format, Rounding, Settings};
-use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::certificate::Certificate;
 use galpix_sim::engine::Engine;
 use galpix_sim::source::Source;
+use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::scene;
 use galpix_sim::study::error::design::{Configuration, Kept, Step};
 use galpix_sim::study::error::ranges::Ranges;

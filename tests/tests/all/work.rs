@@ -1,5 +1,5 @@
-//! A frame with constant work and one that skips what its picture does not need give the same bits: all planes, tally, winners
-//! and edges.
+//! A frame with constant work and one that skips what its picture does not need give the same bits: all planes, tally,
+//! winners and edges.
 
 use galpix_bench::pictures::Picture;
 use galpix_core::record::Field;
@@ -24,8 +24,8 @@ const SHAPES: [Shape; 9] = [
     Shape::new(1, 1, [0, 70, 0, 1]),
 ];
 
-/// Random words; or the same with few empty cells, one class per patch, and motion and depth in their low bits only, so that
-/// there are surfaces, cracks and collisions.
+/// Random words; or the same with few empty cells, one class per patch, and motion and depth in their low bits only, so
+/// that there are surfaces, cracks and collisions.
 fn rubbish(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
     let record = *format.record();
     let cells = shape.cells() as usize;

@@ -1,5 +1,5 @@
-//! The active tiles: which cells of which levels are requested. A bit for each cell, in tiles, so that what lies together comes
-//! together.
+//! The active tiles: which cells of which levels are requested. A bit for each cell, in tiles, so that what lies
+//! together comes together.
 
 use crate::inpaint::levels::{Levels, MOST};
 
@@ -76,8 +76,8 @@ impl<'s> ActiveTiles<'s> {
         }
     }
 
-    /// Returns the next active tile of a level from tile `from` on: its first column and row, its bits, and the tile to go on
-    /// with.
+    /// Returns the next active tile of a level from tile `from` on: its first column and row, its bits, and the tile to
+    /// go on with.
     #[inline]
     #[must_use]
     pub fn next(&self, level: u32, from: usize) -> Option<(u32, u32, Tile, usize)> {

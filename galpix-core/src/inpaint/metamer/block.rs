@@ -71,7 +71,8 @@ pub fn halved<V: Value, const CELLS: usize>(
     halved
 }
 
-/// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of level 1.
+/// Pulls levels 3 and 4 of the tile whose cells of level 2 these are, and keeps all; `left`, `top` is its first cell of
+/// level 1.
 #[inline(always)]
 pub fn pull_up<V: Stored>(
     pyramid: &mut Pyramid<'_, V>,

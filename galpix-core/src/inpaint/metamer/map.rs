@@ -12,8 +12,8 @@ use crate::inpaint::map::{OfGalpixel, Uncovered, moving_as, pyramid_depth};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
-/// How stored colours become tones: where each channel is, and by how much it is moved down to be repeated until it has eight
-/// bits. Loops by it become vector code, whatever the format.
+/// How stored colours become tones: where each channel is, and by how much it is moved down to be repeated until it has
+/// eight bits. Loops by it become vector code, whatever the format.
 #[derive(Clone, Copy, Debug)]
 pub struct ToneOf {
     down: [u32; 3],

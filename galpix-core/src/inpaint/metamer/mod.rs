@@ -4,17 +4,17 @@
 //! r = mu_l + sum over levels i < l and bands j of (mu_ij + xi_ij sigma_ij)         (section 3.4 of the paper)
 //! ```
 //!
-//! Push-pull makes `mu_l`, and from the responses of the bands and their squares, known by a mask of their own, `mu` and `sigma`.
-//! Sums go down level by level, as in push-pull: a cell takes its own tone by its validity, and the rest from the linear sample
-//! of the level above with the detail of its own level added. So what is known is left as it is at every level and not only in
-//! the picture, and with no detail this is push-pull.
+//! Push-pull makes `mu_l`, and from the responses of the bands and their squares, known by a mask of their own, `mu`
+//! and `sigma`. Sums go down level by level, as in push-pull: a cell takes its own tone by its validity, and the rest
+//! from the linear sample of the level above with the detail of its own level added. So what is known is left as it is
+//! at every level and not only in the picture, and with no detail this is push-pull.
 //!
-//! `xi` is white noise through the same bands, see [`noise`]. It is taken where the surface was when the map was updated: a cell
-//! less the way its motion has brought it since (section 3.4.1). So the noise of an area moves with it, and what opens next to
-//! it in the next frame fits.
+//! `xi` is white noise through the same bands, see [`noise`]. It is taken where the surface was when the map was
+//! updated: a cell less the way its motion has brought it since (section 3.4.1). So the noise of an area moves with it,
+//! and what opens next to it in the next frame fits.
 //!
-//! Between places, mean and deviation are interpolated as such: the last linear sample takes them, and the moments go as far as
-//! the level above.
+//! Between places, mean and deviation are interpolated as such: the last linear sample takes them, and the moments go
+//! as far as the level above.
 
 mod active;
 mod block;
@@ -51,8 +51,8 @@ pub struct Recipe {
     pub levels: u32,
     /// To what the noise is scaled.
     pub noise: Scale,
-    /// Whether colours get noise of their own beside that of the luma. The chroma of a texture mostly goes with its luma; noise
-    /// that does not looks like coloured snow.
+    /// Whether colours get noise of their own beside that of the luma. The chroma of a texture mostly goes with its
+    /// luma; noise that does not looks like coloured snow.
     pub coloured: bool,
     /// Which noise.
     pub seed: u32,
@@ -109,7 +109,8 @@ impl<'s> Metamer<'s> {
     /// The most levels that have bands.
     pub const MOST_LEVELS: u32 = 8;
 
-    /// Returns the words of memory for maps of `width` x `height` cells, each 1 to 32768, and a recipe of `levels` levels.
+    /// Returns the words of memory for maps of `width` x `height` cells, each 1 to 32768, and a recipe of `levels`
+    /// levels.
     #[must_use]
     pub const fn words(width: u32, height: u32, levels: u32) -> usize {
         let (of_picture, last) = (Levels::new(width, height), limited(levels));
@@ -119,8 +120,8 @@ impl<'s> Metamer<'s> {
         pyramids.saturating_add(active::words(width, height, last))
     }
 
-    /// Returns the bytes of both buffers: for four levels 179 KiB for 128 x 64 cells, 1453 KiB for 320 x 240 and 19483 KiB for
-    /// 1024 x 1024 (`memory_is_as_stated` in the tests of this module).
+    /// Returns the bytes of both buffers: for four levels 179 KiB for 128 x 64 cells, 1453 KiB for 320 x 240 and 19483
+    /// KiB for 1024 x 1024 (`memory_is_as_stated` in the tests of this module).
     #[must_use]
     pub const fn bytes(width: u32, height: u32, levels: u32) -> usize {
         Self::words(width, height, levels)
@@ -128,8 +129,8 @@ impl<'s> Metamer<'s> {
             .saturating_add(size_of::<MetamerWorkspace>())
     }
 
-    /// Lays metamers for maps of `width` x `height` cells over `memory`. What is in the memory and in the workspace does not
-    /// matter.
+    /// Lays metamers for maps of `width` x `height` cells over `memory`. What is in the memory and in the workspace
+    /// does not matter.
     ///
     /// *Errors:* a side of 0 or over 32768, memory shorter than [`Self::words`].
     pub fn new(

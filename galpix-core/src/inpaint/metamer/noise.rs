@@ -1,7 +1,7 @@
 //! White noise that has a place and no state, and the bands of it.
 //!
-//! Each cell's noise follows from its coordinates, its level and a seed alone: so any part of it can be made in any order,
-//! on any machine, with the same bits, and it can move with a surface (section 3.4.1 of the paper).
+//! Each cell's noise follows from its coordinates, its level and a seed alone: so any part of it can be made in any
+//! order, on any machine, with the same bits, and it can move with a surface (section 3.4.1 of the paper).
 
 use super::steerable::{APRON, Bands, COLUMNS, Cells, LARGEST, LARGEST_RESPONSE, ROWS, TILE, bands, row_of};
 
@@ -37,8 +37,8 @@ impl Scale {
 
     /// Scales a response of a band to [`white`], to [`FRACTION_BITS`].
     ///
-    /// The response's largest value is 5104. Its deviation is that of white noise, `4 sqrt((256^2 - 1)/3)`, times the root of the sum of
-    /// the kernel's squares, `sqrt(518 134) / 512`, with two fraction bits more: 1216.9.
+    /// The response's largest value is 5104. Its deviation is that of white noise, `4 sqrt((256^2 - 1)/3)`, times the
+    /// root of the sum of the kernel's squares, `sqrt(518 134) / 512`, with two fraction bits more: 1216.9.
     #[inline(always)]
     #[must_use]
     pub(super) const fn scaled(self, response: i16) -> i32 {

@@ -1,8 +1,10 @@
-//! Level 0 of the moments: the responses of a level of the tones, two bands in three channels, pulled once, tile by tile.
+//! Level 0 of the moments: the responses of a level of the tones, two bands in three channels, pulled once, tile by
+//! tile.
 //!
-//! A response counts only if all 25 cells under the kernel are known (section 3.2 of the paper: the mask is dilated by the
-//! kernel's radius, at each level by that level's cells) and of one surface: the step from foreground to background, where holes
-//! open, is no texture of either. Of one surface are cells whose depths lie within the threshold of each other.
+//! A response counts only if all 25 cells under the kernel are known (section 3.2 of the paper: the mask is dilated by
+//! the kernel's radius, at each level by that level's cells) and of one surface: the step from foreground to
+//! background, where holes open, is no texture of either. Of one surface are cells whose depths lie within the
+//! threshold of each other.
 //!
 //! Responses themselves are not stored: a hole has none, and everything above sees their means only.
 
@@ -257,8 +259,8 @@ impl Workspace {
         pull_up(pyramid, inpainting, (left, top), &second);
     }
 
-    /// Pulls a tile that is known throughout, of one surface, and within the level: of level 1 only what is requested is put
-    /// together.
+    /// Pulls a tile that is known throughout, of one surface, and within the level: of level 1 only what is requested
+    /// is put together.
     #[inline(always)]
     fn pull_even(
         &self,

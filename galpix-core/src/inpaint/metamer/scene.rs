@@ -11,7 +11,8 @@ pub trait Scene: Holed<Value = Tone> {
     /// Calls `hole` with the place of each hole that is to be filled, row by row.
     fn each_hole(&mut self, hole: impl FnMut(u32, u32));
 
-    /// Copies the cells of a row from `left` on, as many as there are; those of `cells` beyond the border are unspecified.
+    /// Copies the cells of a row from `left` on, as many as there are; those of `cells` beyond the border are
+    /// unspecified.
     #[inline]
     fn row(&self, left: u32, y: u32, cells: &mut Row) {
         let [width, _] = self.size();
@@ -33,7 +34,8 @@ pub trait Scene: Holed<Value = Tone> {
         value.source
     }
 
-    /// Returns how far what a cell holds has moved in the last `age` frames, in cells to the right and down, to the nearest.
+    /// Returns how far what a cell holds has moved in the last `age` frames, in cells to the right and down, to the
+    /// nearest.
     fn displacement(&self, source: u32, age: u32) -> [i32; 2];
 
     /// Fills a hole. What [`Holed::known`] returns for it does not change, but for its tone.

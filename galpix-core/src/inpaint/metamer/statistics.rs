@@ -1,8 +1,9 @@
 //! Mean and deviation of a band around a place: the first two moments, which any convex mean carries along.
 //!
-//! A mean by positive weights takes the responses `X` and their squares `X^2` likewise; the variance by the same weights is
-//! `E[X^2] - E[X]^2` (section 3.3.1 of the paper, where the sign is the other way round). Push-pull is such a mean. All means
-//! here are rounded to the nearest, so the difference can become negative by a trifle: then it counts as 0.
+//! A mean by positive weights takes the responses `X` and their squares `X^2` likewise; the variance by the same
+//! weights is `E[X^2] - E[X]^2` (section 3.3.1 of the paper, where the sign is the other way round). Push-pull is such
+//! a mean. All means here are rounded to the nearest, so the difference can become negative by a trifle: then it counts
+//! as 0.
 
 use super::steerable::LARGEST_RESPONSE;
 use super::tone::{halves, packed};

@@ -1,9 +1,10 @@
 //! The two bands of a level: what of it varies along its rows, and what along its columns.
 //!
-//! A steerable pyramid takes what a lowpass leaves behind, level by level, apart into orientations (section 3.2 of the paper; five
-//! by five cells as there). The lowpass here is what push-pull does anyway, a mean of two by two cells, and the linear sample of it: in each
-//! direction `[1 1]/2` and then `[1 3 3 1]/4`, which is `b = [1 4 6 4 1]/16` on the average over the places where pairs may begin. So
-//! the bands must share out `delta - b (x) b`, and with `s = [1 4 22 4 1]` and `d = [-1 -4 10 -4 -1]` they do:
+//! A steerable pyramid takes what a lowpass leaves behind, level by level, apart into orientations (section 3.2 of the
+//! paper; five by five cells as there). The lowpass here is what push-pull does anyway, a mean of two by two cells, and
+//! the linear sample of it: in each direction `[1 1]/2` and then `[1 3 3 1]/4`, which is `b = [1 4 6 4 1]/16` on the
+//! average over the places where pairs may begin. So the bands must share out `delta - b (x) b`, and with `s = [1 4 22
+//! 4 1]` and `d = [-1 -4 10 -4 -1]` they do:
 //!
 //! ```text
 //! K_x = (s down the columns) (x) (d along the rows) / 512       K_y = K_x transposed
@@ -16,9 +17,9 @@
 //!
 //! Both sum to zero, as `d` does. The first of them answers to what varies along a row.
 //!
-//! **Numbers.** Cells come with 2 fraction bits and go with 4, in 16 bits. The first pass, down the columns, multiplies by up to 32 and
-//! rounds 5 bits away, the second by up to 20 or 32 and rounds 2 away: no sum leaves 16 bits for cells of -1020 to 1020 (times 32:
-//! 32640), no response -5104 to 5104. All roundings are to the nearest, halves upwards.
+//! **Numbers.** Cells come with 2 fraction bits and go with 4, in 16 bits. The first pass, down the columns, multiplies
+//! by up to 32 and rounds 5 bits away, the second by up to 20 or 32 and rounds 2 away: no sum leaves 16 bits for cells
+//! of -1020 to 1020 (times 32: 32640), no response -5104 to 5104. All roundings are to the nearest, halves upwards.
 //!
 //! **Border.** The outermost row and column go on beyond the picture: the caller repeats them.
 
@@ -50,8 +51,8 @@ const SECOND: u32 = 2;
 /// The cells under a tile: from [`APRON`] to the left of it and above.
 pub type Cells = [[i16; COLUMNS]; ROWS];
 
-/// The responses of a tile: of `K_x`, then of `K_y`. Its even rows come first, then its odd ones, see [`row_of`]: so pairs of rows
-/// are two long rows.
+/// The responses of a tile: of `K_x`, then of `K_y`. Its even rows come first, then its odd ones, see [`row_of`]: so
+/// pairs of rows are two long rows.
 pub type Bands = [[[i16; TILE]; TILE]; 2];
 
 /// Returns where row `y` of a tile's responses is.
@@ -82,8 +83,8 @@ const fn rounded(sum: i16, bits: u32) -> i16 {
 
 /// Works out both bands of a tile. The last columns of the cells are not looked at.
 ///
-/// Each pass goes over all rows as if they were one: a loop so long becomes vector code. What it makes of places where a row
-/// ends and the next begins is not used, and fits 16 bits as well: any cells within the range do.
+/// Each pass goes over all rows as if they were one: a loop so long becomes vector code. What it makes of places where
+/// a row ends and the next begins is not used, and fits 16 bits as well: any cells within the range do.
 #[inline]
 pub fn bands(cells: &Cells, bands: &mut Bands) {
     const LONG: usize = TILE * COLUMNS;

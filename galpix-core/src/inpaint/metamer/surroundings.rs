@@ -80,8 +80,8 @@ impl Surroundings {
         Self { channels: [[[0; COLUMNS]; ROWS]; 3], depths: [[0; COLUMNS]; ROWS], known: [[0; COLUMNS]; ROWS] }
     }
 
-    /// Copies the surroundings of the tile that begins at `left`, `top` in a level of `width` x `height` cells. `row` copies the
-    /// cells of a row from a column on; the border is repeated.
+    /// Copies the surroundings of the tile that begins at `left`, `top` in a level of `width` x `height` cells. `row`
+    /// copies the cells of a row from a column on; the border is repeated.
     #[inline(always)]
     pub fn load(&mut self, left: u32, top: u32, [width, height]: [u32; 2], mut row: impl FnMut(u32, u32, &mut Row)) {
         let first = left.saturating_sub(APRON as u32);
@@ -109,8 +109,8 @@ impl Surroundings {
         }
     }
 
-    /// Returns for each cell of the tile whether all cells under its kernel are known and within `threshold` of each other's
-    /// depth.
+    /// Returns for each cell of the tile whether all cells under its kernel are known and within `threshold` of each
+    /// other's depth.
     #[inline]
     #[must_use]
     pub fn whole(&self, threshold: u32) -> [RowBits; TILE] {

@@ -120,7 +120,8 @@ fn finish_level<S: Scene>(moments: &mut Lazy<'_, '_, Moments, Responses<'_, '_, 
     });
 }
 
-/// Completes a cell of the level above the responses, and turns its moments into statistics. What is pulled from it, is before.
+/// Completes a cell of the level above the responses, and turns its moments into statistics. What is pulled from it, is
+/// before.
 fn finish<S: Scene>(moments: &mut Lazy<'_, '_, Moments, Responses<'_, '_, '_, S>>, x: u32, y: u32) {
     let index = moments.pyramid.index(1, x, y);
     if moments.pyramid.state(index) == State::Completed {

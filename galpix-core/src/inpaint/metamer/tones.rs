@@ -69,8 +69,8 @@ impl<S: Scene> Base<Tone> for Tones<'_, S> {
         self.inpainting
     }
 
-    /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture are long
-    /// in memory: that is why they are read far along before the next one is.
+    /// Pulls some tiles of 8 x 8 cells of level 1 that lie in a row, up to one of level 4 for each. Rows of the picture
+    /// are long in memory: that is why they are read far along before the next one is.
     #[inline(never)]
     fn pull(&mut self, pyramid: &mut Pyramid<'_, Tone>, level: u32, x: u32, y: u32) {
         let (x, y) = (x << (level - 1), y << (level - 1));

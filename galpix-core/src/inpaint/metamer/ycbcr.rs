@@ -1,8 +1,9 @@
 //! Luma and chroma: the three channels that statistics are taken of, one by one.
 //!
-//! The reversible transform of JPEG 2000, `Y = floor((R + 2 G + B) / 4)`, `Cb = B - G`, `Cr = R - G`, here with the two fraction bits
-//! that the floor drops: so it is linear, its means are means of colours, and it still is reversible exactly. It removes most of
-//! what the channels of a picture have in common (section 3.2 of the paper), with additions and shifts.
+//! The reversible transform of JPEG 2000, `Y = floor((R + 2 G + B) / 4)`, `Cb = B - G`, `Cr = R - G`, here with the two
+//! fraction bits that the floor drops: so it is linear, its means are means of colours, and it still is reversible
+//! exactly. It removes most of what the channels of a picture have in common (section 3.2 of the paper), with additions
+//! and shifts.
 
 /// Fraction bits of all three.
 pub const FRACTION_BITS: u32 = 2;
@@ -18,8 +19,8 @@ pub const fn of_rgb([red, green, blue]: [u8; 3]) -> [i16; 3] {
     [red + 2 * green + blue - MIDDLE, 4 * (blue - green), 4 * (red - green)]
 }
 
-/// Returns the colour: each channel to the nearest code value, halves upwards, clamped to 0 to 255. Channels lie between -2^28
-/// and 2^28.
+/// Returns the colour: each channel to the nearest code value, halves upwards, clamped to 0 to 255. Channels lie
+/// between -2^28 and 2^28.
 #[inline(always)]
 #[must_use]
 pub const fn to_rgb([luma, blue, red]: [i32; 3]) -> [u8; 3] {

@@ -14,8 +14,8 @@ pub enum AccelerationPolicy {
     AsGiven,
     /// Left out: constant velocity.
     Off,
-    /// Each component is limited so that over the capture's frames `a t² / 2` never exceeds `|v| t`. Second differences of
-    /// noisy poses are then at worst a velocity too many.
+    /// Each component is limited so that over the capture's frames `a t² / 2` never exceeds `|v| t`. Second differences
+    /// of noisy poses are then at worst a velocity too many.
     Clamp,
     /// The mean over the known cells around, 5x5, whose distance differs by at most 5 %.
     Smooth,
@@ -23,9 +23,9 @@ pub enum AccelerationPolicy {
 
 /// Chains a second flow: `p1 = x + f1(x)`, `p2 = p1 + f2(p1)` (bilinear), and the parabola through `x`, `p1`, `p2`.
 ///
-/// The first displacement spans the `n1` display frames of the manifest's motion, the second `n2 = flow.frames`. Where the
-/// second one is unknown, or `p1` is outside of the picture, the motion stays as it is and is counted. So it does, uncounted,
-/// in cells that start empty, and in the background, whose motion does not come from the flow.
+/// The first displacement spans the `n1` display frames of the manifest's motion, the second `n2 = flow.frames`. Where
+/// the second one is unknown, or `p1` is outside of the picture, the motion stays as it is and is counted. So it does,
+/// uncounted, in cells that start empty, and in the background, whose motion does not come from the flow.
 pub(super) fn chain(
     motion: &mut [Option<Track>],
     Opened { manifest, folder, size, distances }: Opened<'_>,

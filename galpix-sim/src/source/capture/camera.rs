@@ -1,8 +1,8 @@
 //! The motion of a still scene in a moving camera.
 //!
-//! A pixel is lifted with its depth, `P = z ((x - cx) / fx, (y - cy) / fy, 1)`, and projected with the other poses. Through
-//! its places at the update and at steps `s1`, `s2` runs the parabola `x + v s + a s²/2`; with the poses before and after
-//! (`s = -1, 1`) that is `v = (p⁺ - p⁻) / 2`, `a = p⁺ - 2 p⁰ + p⁻`. The depth moves by the same rule.
+//! A pixel is lifted with its depth, `P = z ((x - cx) / fx, (y - cy) / fy, 1)`, and projected with the other poses.
+//! Through its places at the update and at steps `s1`, `s2` runs the parabola `x + v s + a s²/2`; with the poses before
+//! and after (`s = -1, 1`) that is `v = (p⁺ - p⁻) / 2`, `a = p⁺ - 2 p⁰ + p⁻`. The depth moves by the same rule.
 
 use super::poses::{Path3, Pose};
 use super::source::Size;
@@ -15,7 +15,8 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Whether all six numbers are finite and of a size that a displacement can have (formats mark unknown by 1e9 and up).
+    /// Whether all six numbers are finite and of a size that a displacement can have (formats mark unknown by 1e9 and
+    /// up).
     pub fn is_usable(&self) -> bool {
         self.velocity.iter().chain(&self.acceleration).all(|v| v.abs() <= 1e9)
     }
@@ -58,7 +59,8 @@ impl View {
 
 /// The motion of each sample, `None` where the depth is unknown or the point is behind one of the cameras.
 ///
-/// `frames`: display frames between two poses. Far points are directions: they turn with the camera and do not approach.
+/// `frames`: display frames between two poses. Far points are directions: they turn with the camera and do not
+/// approach.
 pub(super) fn tracks(path: &Path3, frames: u32, size: Size, distances: &[Distance]) -> Vec<Option<Track>> {
     let views: Vec<View> = path.others.iter().map(|(steps, pose)| View::new(&path.now, *steps, pose)).collect();
     let [fx, fy, cx, cy] = path.intrinsics;

@@ -15,8 +15,8 @@ use crate::picture::Picture;
 
 /// Reads a colour picture as 8-bit sRGB; alpha is left out.
 ///
-/// `channel` is for EXR only: the name before `.R`, `.G`, `.B`; without it the file must have plain `R G B` or exactly one
-/// pass `Combined`. `expected`: the size that the picture must have.
+/// `channel` is for EXR only: the name before `.R`, `.G`, `.B`; without it the file must have plain `R G B` or exactly
+/// one pass `Combined`. `expected`: the size that the picture must have.
 pub(super) fn read(source: &Source, channel: Option<&str>, expected: Option<Size>) -> Result<Picture, CaptureError> {
     let format = source.format()?;
     if let (Some(channel), Format::Png | Format::Jpeg) = (channel, format) {
@@ -94,8 +94,8 @@ fn srgb(linear: f64) -> u8 {
     (code * 255.0).round() as u8
 }
 
-/// What is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half. Others that are not
-/// quite transparent, or not quite opaque, are noted.
+/// What is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half. Others that
+/// are not quite transparent, or not quite opaque, are noted.
 pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> Result<Overlay, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as an overlay must be", "save it as a PNG with alpha"));

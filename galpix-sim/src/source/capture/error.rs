@@ -21,7 +21,8 @@ impl CaptureError {
     }
 }
 
-/// `text` (a file's name may hold line breaks, too) with every run of blanks and control characters replaced by one blank.
+/// `text` (a file's name may hold line breaks, too) with every run of blanks and control characters replaced by one
+/// blank.
 fn one_line(text: &str) -> String {
     text.split(|c: char| c.is_whitespace() || c.is_control())
         .filter(|word| !word.is_empty())

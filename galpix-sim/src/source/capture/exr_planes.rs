@@ -1,8 +1,8 @@
 //! Channels of OpenEXR files, single or multi-part, half, float or integer, found by name.
 //!
-//! Blender names a channel `<view layer>.<pass>.<channel>`, in single- and multi-part files alike; other writers put the pass
-//! into the part's name. So a channel is known here by its own name and by `<part>.<name>`, and may be asked for by the end
-//! of its name from a dot on (`Depth.Z` finds `ViewLayer.Depth.Z`) where that is unambiguous.
+//! Blender names a channel `<view layer>.<pass>.<channel>`, in single- and multi-part files alike; other writers put
+//! the pass into the part's name. So a channel is known here by its own name and by `<part>.<name>`, and may be asked
+//! for by the end of its name from a dot on (`Depth.Z` finds `ViewLayer.Depth.Z`) where that is unambiguous.
 
 use std::io::Cursor;
 

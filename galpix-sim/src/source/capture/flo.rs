@@ -1,5 +1,6 @@
-//! Middlebury `.flo`: the tag "PIEH" (202021.25 as a little-endian float), two 32-bit integers (columns, rows), then a pair
-//! (u, v) of 32-bit floats for each pixel, rows from top to bottom. Pixels, y down; a size above 1e9 means unknown.
+//! Middlebury `.flo`: the tag "PIEH" (202021.25 as a little-endian float), two 32-bit integers (columns, rows), then a
+//! pair (u, v) of 32-bit floats for each pixel, rows from top to bottom. Pixels, y down; a size above 1e9 means
+//! unknown.
 
 use super::error::CaptureError;
 use super::source::{Bands, Size, Source, array};

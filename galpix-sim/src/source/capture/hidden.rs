@@ -1,4 +1,5 @@
-//! What a capture knows behind its update: a second layer over the same pixels, or what pictures from elsewhere see there.
+//! What a capture knows behind its update: a second layer over the same pixels, or what pictures from elsewhere see
+//! there.
 
 use std::path::Path;
 
@@ -14,8 +15,8 @@ use crate::update::{Known, Update};
 /// Depths of one surface differ from cell to cell by less than this part.
 const SAME_SURFACE: f64 = 0.05;
 
-/// The hidden samples as an update over the same cells, whose depths are normalised as the first layer's are; nothing if there are none in
-/// the manifest. What is no farther than the first layer is not hidden, and left out.
+/// The hidden samples as an update over the same cells, whose depths are normalised as the first layer's are; nothing
+/// if there are none in the manifest. What is no farther than the first layer is not hidden, and left out.
 pub(super) fn read(
     opened: Opened<'_>,
     unit: Unit,
@@ -68,11 +69,12 @@ pub(super) fn read(
     Ok(Some(update))
 }
 
-/// What other pictures of the still scene see behind the first layer: in each cell the nearest surface that lies behind by the separation.
+/// What other pictures of the still scene see behind the first layer: in each cell the nearest surface that lies behind
+/// by the separation.
 ///
-/// Each pixel of a view is lifted with its depth and projected into the update's camera, and so are the places half way between pixels of
-/// one surface, so that no cracks open where the view is coarser. A sample is put into the middle of the cell that it falls into, at most half a
-/// pixel beside its place.
+/// Each pixel of a view is lifted with its depth and projected into the update's camera, and so are the places half way
+/// between pixels of one surface, so that no cracks open where the view is coarser. A sample is put into the middle of
+/// the cell that it falls into, at most half a pixel beside its place.
 fn seen_from_elsewhere(
     Opened { manifest, folder, size, distances: first }: Opened<'_>,
     views: &Views,

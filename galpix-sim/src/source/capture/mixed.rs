@@ -1,9 +1,9 @@
 //! Vectors that belong to no surface.
 //!
-//! In an anti-aliased render the depth of a pixel comes from one sample, but its vector is averaged over the pixel: at the
-//! border of a surface that moves, it lies somewhere between the vectors of the two sides. Such a vector is replaced by that
-//! of the nearest cell of the same surface that is away from any border. A vector that is not between the two sides is the
-//! surface's own, as in a render of one sample a pixel, and is left alone.
+//! In an anti-aliased render the depth of a pixel comes from one sample, but its vector is averaged over the pixel: at
+//! the border of a surface that moves, it lies somewhere between the vectors of the two sides. Such a vector is
+//! replaced by that of the nearest cell of the same surface that is away from any border. A vector that is not between
+//! the two sides is the surface's own, as in a render of one sample a pixel, and is left alone.
 
 use super::camera::{Distance, Track};
 use super::source::Size;

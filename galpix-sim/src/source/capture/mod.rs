@@ -4,9 +4,9 @@
 //! manifest ─▶ source (bytes, limits) ─▶ colour, raster formats ─▶ depth ─▶ motion ─▶ samples ─▶ Update
 //! ```
 //!
-//! Positions are in pixels, x to the right, y down; frame 0 is the update; times are in display frames. Whatever is read is
-//! hostile: sizes are checked before anything of that size is allocated, and every refusal is one sentence that names the
-//! file and the mend.
+//! Positions are in pixels, x to the right, y down; frame 0 is the update; times are in display frames. Whatever is
+//! read is hostile: sizes are checked before anything of that size is allocated, and every refusal is one sentence that
+//! names the file and the mend.
 
 mod acceleration;
 mod camera;

@@ -1,8 +1,9 @@
-//! NumPy `.npy`, versions 1 to 3: a magic, the length of a header that is a Python dictionary (`descr`, `fortran_order`,
-//! `shape`), then the values. Read here: floats of 16, 32 and 64 bits and unsigned integers of 8 and 16, either byte order.
+//! NumPy `.npy`, versions 1 to 3: a magic, the length of a header that is a Python dictionary (`descr`,
+//! `fortran_order`, `shape`), then the values. Read here: floats of 16, 32 and 64 bits and unsigned integers of 8 and
+//! 16, either byte order.
 //!
-//! The dictionary is parsed by hand because its numbers are hostile input: sizes must be bounded before they are multiplied,
-//! and nesting must not recurse.
+//! The dictionary is parsed by hand because its numbers are hostile input: sizes must be bounded before they are
+//! multiplied, and nesting must not recurse.
 
 use half::f16;
 

@@ -116,7 +116,8 @@ fn choose(find: impl Fn(f64) -> Option<(f64, Pose)>) -> (Vec<(f64, Pose)>, Optio
 
 /// The intrinsics for samples at integer points: the manifest's, else the file's own.
 ///
-/// `transforms.json` has pixel centres at +0.5. A manifest that gives that file's centre less one half has already moved it.
+/// `transforms.json` has pixel centres at +0.5. A manifest that gives that file's centre less one half has already
+/// moved it.
 fn intrinsics(camera: &Camera, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
     let [fx, fy, cx, cy] = camera.intrinsics.or(own)?;
     let usual = if camera.format == PoseFormat::Transforms { 0.5 } else { 0.0 };

@@ -9,7 +9,8 @@ use crate::update::{DepthKind, Known, Sample, Update, Wings};
 /// The nearest distance that can be stored is this part of the nearest that is seen: room to approach.
 const ROOM: f64 = 0.5;
 
-/// How the depths of an update are normalised: their kind, and the distance or disparity that the nearest depth stands for.
+/// How the depths of an update are normalised: their kind, and the distance or disparity that the nearest depth stands
+/// for.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Unit {
     kind: DepthKind,

@@ -35,7 +35,8 @@ impl Size {
     }
 }
 
-/// Raw numbers as a file stores them: one or more bands of as many values as the picture has cells, rows from top to bottom.
+/// Raw numbers as a file stores them: one or more bands of as many values as the picture has cells, rows from top to
+/// bottom.
 #[derive(Clone, Debug)]
 pub(super) struct Bands {
     pub bands: Vec<Vec<f64>>,
@@ -66,7 +67,8 @@ impl Source {
         let unreadable = |e: std::io::Error| {
             CaptureError::new(path, format!("cannot be read ({e})"), "correct the path or add the file")
         };
-        // A device or a pipe has no length that could be checked before reading, and merely opening a pipe may wait forever.
+        // A device or a pipe has no length that could be checked before reading, and merely opening a pipe may wait
+        // forever.
         let about = std::fs::metadata(path).map_err(unreadable)?;
         if !about.is_file() {
             return Err(CaptureError::new(path, "is not a regular file", "name a file"));
@@ -118,8 +120,8 @@ impl Source {
 
     /// Checks a header's dimensions, before anything of that size is allocated.
     ///
-    /// Errors: no pixels, more than 16384 on a side, more than 64 Mi pixels, or another size than `expected` (the size of the
-    /// colour picture).
+    /// Errors: no pixels, more than 16384 on a side, more than 64 Mi pixels, or another size than `expected` (the size
+    /// of the colour picture).
     pub fn agree(&self, width: u64, height: u64, expected: Option<Size>) -> Result<Size, CaptureError> {
         if width == 0 || height == 0 {
             return Err(self.fault(format!("is {width}x{height}, without a pixel"), "export it again"));

@@ -6,7 +6,8 @@ use super::*;
 use crate::certificate::Certificate;
 use crate::update::{DepthKind, Known, Wings};
 
-/// Calls `look` with every galpixel that is left after `frames` frames of a panel: the cell that it entered at, and its place.
+/// Calls `look` with every galpixel that is left after `frames` frames of a panel: the cell that it entered at, and its
+/// place.
 fn after<P: Panel>(galpixels: &[Galpixel], frames: u32, mut look: impl FnMut([usize; 2], [f64; 2])) {
     let (width, height) = (u32::from(P::WIDTH), u32::from(P::HEIGHT));
     let mut starts = vec![0; Grid::rows(height, Margin::NONE)];
@@ -125,8 +126,8 @@ fn a_scene_of_the_panels_size_is_its_own_update() {
     assert_eq!(scene(drift, 3.0, width, height), update(&crate::source::scene::update(drift, 3.0), width, height));
 }
 
-/// The largest error of the places of a scene's galpixels after 16 frames of a panel, in cells, what is certified, and the
-/// galpixels left.
+/// The largest error of the places of a scene's galpixels after 16 frames of a panel, in cells, what is certified, and
+/// the galpixels left.
 fn worst<P: Panel>(name: &str) -> (f64, f64, usize) {
     const FRAMES: u32 = 16;
     let source = crate::source::scene::find(name).unwrap();

@@ -32,12 +32,14 @@ pub enum Kind {
     /// There are none: one layer.
     #[default]
     None,
-    /// A second layer of depth, that lies behind the first by a least separation in normalised depth; 0: the next surface, whatever it is.
+    /// A second layer of depth, that lies behind the first by a least separation in normalised depth; 0: the next
+    /// surface, whatever it is.
     Second {
         /// The separation.
         separation: f64,
     },
-    /// What the image of a depth discontinuity occlusion camera has around the edges of what is seen, in an anchored layer.
+    /// What the image of a depth discontinuity occlusion camera has around the edges of what is seen, in an anchored
+    /// layer.
     Ddoc {
         /// How far behind an edge it reaches, cells.
         radius: u32,
@@ -51,8 +53,9 @@ pub enum Kind {
 pub enum Arrangement {
     /// The one that is seen. What is behind is in a layer of its own.
     Nearer,
-    /// The one behind, where there is one. A surface that covers something, and leaves some of it, is in a layer of its own: it takes nothing
-    /// away of what it passes in front of, and its bullet holes are closed before anything shines through.
+    /// The one behind, where there is one. A surface that covers something, and leaves some of it, is in a layer of its
+    /// own: it takes nothing away of what it passes in front of, and its bullet holes are closed before anything shines
+    /// through.
     #[default]
     Farther,
 }
@@ -64,7 +67,8 @@ pub struct Way {
     pub kind: Kind,
     /// How they are put into layers; each of more than two surfaces has a layer of its own.
     pub arrangement: Arrangement,
-    /// Whether only those are handed over that the disocclusion map of the first layer says can be uncovered before the next update.
+    /// Whether only those are handed over that the disocclusion map of the first layer says can be uncovered before the
+    /// next update.
     pub culled: bool,
 }
 
@@ -156,8 +160,8 @@ pub fn has(source: &Source, kind: Kind) -> bool {
     }
 }
 
-/// What a source hands over in a way, for `frames` frames until the next update, quantised to a format: the first layer alone if it has
-/// nothing of this kind.
+/// What a source hands over in a way, for `frames` frames until the next update, quantised to a format: the first layer
+/// alone if it has nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn carry(source: &Source, update: &Update, way: Way, format: Dynamic, frames: u32) -> Result<Carried, EngineError> {

@@ -7,7 +7,8 @@ use crate::source::scene::{self, Peel, Scene};
 use crate::study::ddoc::{self, distortion};
 use crate::update::{Known, Sample, Update};
 
-/// What a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing of this kind.
+/// What a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing of this
+/// kind.
 ///
 /// *Errors:* a scene that is too large for a map.
 pub(super) fn offered(source: &Source, kind: Kind) -> Result<Vec<Layer>, EngineError> {

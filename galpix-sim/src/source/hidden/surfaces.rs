@@ -3,8 +3,8 @@
 use super::SEPARATION;
 use crate::update::{Known, Update};
 
-/// The cells that cover something, of all surfaces that leave some of what they cover. Such a surface goes into a layer of its own as a
-/// whole, so that no crack opens within it.
+/// The cells that cover something, of all surfaces that leave some of what they cover. Such a surface goes into a layer
+/// of its own as a whole, so that no crack opens within it.
 pub(super) fn that_leave(update: &Update, covering: &[bool], leaves: &[bool]) -> Vec<usize> {
     let mut seen = vec![false; covering.len()];
     let mut all = Vec::new();

@@ -11,8 +11,8 @@ pub struct Ball;
 /// Frames until the ball is back where it started: what the paper calls the shortest recognisable time.
 const FLIGHT: f64 = 24.0;
 
-/// A coordinate that goes `reach` pixels away and is back after [`FLIGHT`]: at half time it stops, so `v = 4 reach / T`,
-/// and `v = -a T / 2`. With `reach` the extent of the display these are the extremes behind (8) and (9).
+/// A coordinate that goes `reach` pixels away and is back after [`FLIGHT`]: at half time it stops, so `v = 4 reach /
+/// T`, and `v = -a T / 2`. With `reach` the extent of the display these are the extremes behind (8) and (9).
 const fn there_and_back(start: f64, reach: f64) -> Path {
     let velocity = 4.0 * reach / FLIGHT;
     Path::new(start, velocity, -2.0 * velocity / FLIGHT)

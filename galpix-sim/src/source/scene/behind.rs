@@ -1,9 +1,10 @@
 //! What a scene has behind what is seen: layers of depth, as a renderer that peels them off delivers them.
 //!
-//! Along the line of sight through a cell the surfaces are met in order of depth. Layer 0 is the update; each further layer takes
-//! the first surface that lies behind the one before by a least separation. Where there is none the cell is empty. A solid is met
-//! twice, where the line enters it and where it leaves: its own back is never uncovered before its front is, so a renderer that
-//! tells them apart leaves the backs out, and one that does not needs a separation that is larger than the solids are thick.
+//! Along the line of sight through a cell the surfaces are met in order of depth. Layer 0 is the update; each further
+//! layer takes the first surface that lies behind the one before by a least separation. Where there is none the cell is
+//! empty. A solid is met twice, where the line enters it and where it leaves: its own back is never uncovered before
+//! its front is, so a renderer that tells them apart leaves the backs out, and one that does not needs a separation
+//! that is larger than the solids are thick.
 
 use rayon::prelude::*;
 
@@ -33,7 +34,8 @@ const EMPTY: Sample = Sample {
     tag: 0,
 };
 
-/// The layers behind the update of a scene at time `t`, over the same cells, from near to far; without those that are empty.
+/// The layers behind the update of a scene at time `t`, over the same cells, from near to far; without those that are
+/// empty.
 #[must_use]
 pub fn behind(scene: &dyn Scene, t: f64, peel: &Peel) -> Vec<Update> {
     let cells = cells(scene, |place| peeled(scene.surfaces(), place, t, peel));
@@ -65,7 +67,8 @@ fn update_of(scene: &dyn Scene, samples: Vec<Sample>) -> Update {
     }
 }
 
-/// Each surface of a scene at time `t` by itself, as if no other one were in front of it: the layers that nothing is missing in.
+/// Each surface of a scene at time `t` by itself, as if no other one were in front of it: the layers that nothing is
+/// missing in.
 #[must_use]
 pub fn each(scene: &dyn Scene, t: f64) -> Vec<Update> {
     let seen_alone = |index: usize| {

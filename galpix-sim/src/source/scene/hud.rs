@@ -163,8 +163,8 @@ const DIGITS: [[u8; 5]; 10] = [
     [7, 5, 7, 1, 7],
 ];
 
-/// What is pinned to a pixel: a cross-hair in a ring, a horizon, a scale and a gauge, a line of text and of numbers, and a border
-/// of single dots.
+/// What is pinned to a pixel: a cross-hair in a ring, a horizon, a scale and a gauge, a line of text and of numbers,
+/// and a border of single dots.
 fn instruments(x: usize, y: usize) -> Option<[u8; 3]> {
     let (i, j) = (x as i32, y as i32);
     let (u, v) = (f64::from(i) - 95.5, f64::from(j) - 71.5);

@@ -1,11 +1,13 @@
 //! Values that carry their own first and second derivative by time.
 //!
 //! A scene states where a point is as one formula in `t`. Evaluated over [`Jet`]s, the same formula yields velocity and
-//! acceleration by the product, quotient and chain rules: exact up to rounding, and never at odds with the place itself.
+//! acceleration by the product, quotient and chain rules: exact up to rounding, and never at odds with the place
+//! itself.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// A value, its rate of change a frame, and the rate of change of that: the Taylor series (1) of the paper to second order.
+/// A value, its rate of change a frame, and the rate of change of that: the Taylor series (1) of the paper to second
+/// order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet {
     /// The value itself.
@@ -74,7 +76,8 @@ impl Mul for Jet {
 
 impl Div for Jet {
     type Output = Self;
-    /// The quotient `q` follows from `self = q * other`, differentiated twice and solved for `q`, `q'` and `q''` in turn.
+    /// The quotient `q` follows from `self = q * other`, differentiated twice and solved for `q`, `q'` and `q''` in
+    /// turn.
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let velocity = (self.velocity - value * other.velocity) / other.value;

@@ -1,8 +1,9 @@
 //! The built-in scenes: small worlds whose truth is known exactly.
 //!
-//! A scene is a list of [`Surface`]s. What is seen at a place and time, how it moves there, and where it is at any other
-//! time all follow from the same closed formulas, so that an extrapolated picture can be compared with a picture that was
-//! rendered for real at the later time, and every galpixel with the place where its point of the surface truly is.
+//! A scene is a list of [`Surface`]s. What is seen at a place and time, how it moves there, and where it is at any
+//! other time all follow from the same closed formulas, so that an extrapolated picture can be compared with a picture
+//! that was rendered for real at the later time, and every galpixel with the place where its point of the surface truly
+//! is.
 
 mod ball;
 mod behind;
@@ -77,8 +78,8 @@ pub trait Scene: Sync {
     /// What the world is built of. Surface `i` has the tag `i + 1`; of two at the same depth the earlier one is seen.
     fn surfaces(&self) -> &[&dyn Surface];
 
-    /// The surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is, the world is
-    /// black, still and infinitely far.
+    /// The surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is, the world
+    /// is black, still and infinitely far.
     fn sample(&self, x: f64, y: f64, t: f64) -> Sample {
         let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
             return Sample { depth: 1.0, ..Sample::default() };
@@ -86,8 +87,8 @@ pub trait Scene: Sync {
         seen(self.surfaces()[index], index, &hit, t)
     }
 
-    /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y and
-    /// normalised depth.
+    /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y
+    /// and normalised depth.
     fn track(&self, x: f64, y: f64, t0: f64, t: f64) -> [f64; 3] {
         match nearest(self.surfaces(), x, y, t0) {
             Some((index, hit)) => self.surfaces()[index].place(hit.point, Jet::constant(t)).map(|place| place.value),
@@ -96,8 +97,8 @@ pub trait Scene: Sync {
     }
 }
 
-/// The point of one surface, its back's if `back`, that is seen or hidden at (`x`, `y`) at time `t`; nothing if the surface is not there.
-/// As [`Scene::sample`] has it where it is seen.
+/// The point of one surface, its back's if `back`, that is seen or hidden at (`x`, `y`) at time `t`; nothing if the
+/// surface is not there. As [`Scene::sample`] has it where it is seen.
 #[must_use]
 pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2], t: f64) -> Option<Sample> {
     let on = *scene.surfaces().get(surface)?;
@@ -131,8 +132,8 @@ fn colour(surface: &dyn Surface, hit: &Hit, t: f64) -> Rgb {
     surface.colour(hit.point).map(|channel| channel + gained)
 }
 
-/// The update that a renderer would deliver at time `t`: one point sample a cell, wings included. Cell (i, j) of the map is
-/// at the display position (i - `wings.left`, j - `wings.top`).
+/// The update that a renderer would deliver at time `t`: one point sample a cell, wings included. Cell (i, j) of the
+/// map is at the display position (i - `wings.left`, j - `wings.top`).
 #[must_use]
 pub fn update(scene: &dyn Scene, t: f64) -> Update {
     let wings = scene.wings();

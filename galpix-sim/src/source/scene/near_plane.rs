@@ -70,8 +70,8 @@ fn in_corridor(z: f64, y: f64) -> bool {
     z <= END && (CEILING..=FLOOR).contains(&y)
 }
 
-/// The lowest row of the wings sees the floor at distance 1.06, just behind the near plane; in 16 frames the nearer post
-/// comes from 2.3 to 1.4.
+/// The lowest row of the wings sees the floor at distance 1.06, just behind the near plane; in 16 frames the nearer
+/// post comes from 2.3 to 1.4.
 const LENS: &Lens = &Lens {
     focal: 120.0,
     centre: [95.5, 71.5],
@@ -79,8 +79,8 @@ const LENS: &Lens = &Lens {
     eye: [Path::new(0.0, 0.008, 0.0), Path::still(0.0), Path::new(0.0, 0.05, 0.001)],
 };
 
-/// How much of a pattern is left at world distance `z`: it fades before it gets finer than pixels. The fading belongs to
-/// the surface, so it does not change as the viewer comes nearer.
+/// How much of a pattern is left at world distance `z`: it fades before it gets finer than pixels. The fading belongs
+/// to the surface, so it does not change as the viewer comes nearer.
 fn contrast(z: f64) -> f64 {
     ((6.5 - z) / 3.0).clamp(0.0, 1.0)
 }

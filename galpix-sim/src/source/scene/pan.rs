@@ -9,8 +9,8 @@ use crate::update::Wings;
 /// Scene `pan`.
 pub struct Pan;
 
-/// The picture's way: to the left and first down, with the pan slowing. By frame 24 it has gone 66.7 pixels to the left;
-/// its lowest place, 9.4 pixels down, it reaches in frame 25.
+/// The picture's way: to the left and first down, with the pan slowing. By frame 24 it has gone 66.7 pixels to the
+/// left; its lowest place, 9.4 pixels down, it reaches in frame 25.
 const WAY: [Path; 2] = [Path::new(0.0, -3.5, 0.06), Path::new(0.0, 0.75, -0.03)];
 
 impl Scene for Pan {

@@ -55,7 +55,8 @@ const FLOOR: f64 = 1.3;
 /// Distance of the back wall.
 const WALL: f64 = 14.0;
 
-/// Wall and floor end behind each other: so nothing is behind them that a hall does not have, and no gap is between them.
+/// Wall and floor end behind each other: so nothing is behind them that a hall does not have, and no gap is between
+/// them.
 const OVERLAP: f64 = 0.05;
 
 /// The step sideways gives 2.8 pixels a frame at the nearest pillar, 0.8 at the back wall.

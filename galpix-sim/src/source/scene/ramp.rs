@@ -47,7 +47,8 @@ const fn hung(origin: [Path; 2], depth: f64, paint: fn(f64, f64) -> Rgb) -> Card
     Card::new(origin, depth, |u, v| u.abs() < HALF[0] && v.abs() < HALF[1], paint)
 }
 
-/// Paper with a fine stripe above, panelling below. No channel so dark or bright that the light could drive it to its end.
+/// Paper with a fine stripe above, panelling below. No channel so dark or bright that the light could drive it to its
+/// end.
 fn wall(u: f64, v: f64) -> Rgb {
     let paper = gradient([hex(0x7c6a8c), hex(0x8c7a98), hex(0xa08ea8)], noise(u, v, 26.0, 1));
     let striped = mix(paper, hex(0xb4a0b4), 0.35 * stripes(u, 12.0, 5.0));

@@ -50,7 +50,8 @@ impl Lens {
         [(x - self.centre[0]) / self.focal, (y - self.centre[1]) / self.focal, 1.0]
     }
 
-    /// Normalised depth at distance `z`; none in front of the near plane, none where the distance is infinite or undefined.
+    /// Normalised depth at distance `z`; none in front of the near plane, none where the distance is infinite or
+    /// undefined.
     fn depth(&self, z: f64) -> Option<f64> {
         (z >= self.near && z.is_finite()).then(|| 1.0 - self.near / z)
     }

@@ -59,7 +59,8 @@ impl Scene for Sphere {
 const FLOOR: f64 = 1.4;
 const WALL: f64 = 12.0;
 
-/// Wall and floor end behind each other: so nothing is behind them that a room does not have, and no gap is between them.
+/// Wall and floor end behind each other: so nothing is behind them that a room does not have, and no gap is between
+/// them.
 const OVERLAP: f64 = 0.05;
 
 const LENS: &Lens = &Lens {

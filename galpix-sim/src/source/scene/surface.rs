@@ -21,7 +21,8 @@ pub trait Surface: Sync {
     /// The point seen at display position (`x`, `y`) (pixels) at `t` (frames), if the surface is there.
     fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit>;
 
-    /// The point of the back that would be seen at the same place if the front were not there; only solid bodies have a back.
+    /// The point of the back that would be seen at the same place if the front were not there; only solid bodies have a
+    /// back.
     fn behind(&self, _x: f64, _y: f64, _t: f64) -> Option<Hit> {
         None
     }

@@ -3,7 +3,8 @@
 use super::{Scene, all, find, render, update};
 use crate::update::{Known, Sample};
 
-/// Every third column and row of the map, wings included; odd steps, so that no pattern of the textures is in tune with them.
+/// Every third column and row of the map, wings included; odd steps, so that no pattern of the textures is in tune with
+/// them.
 fn places(scene: &dyn Scene) -> impl Iterator<Item = (f64, f64)> {
     let wings = scene.wings();
     let (left, right) = (-(wings.left as i32), (scene.width() + wings.right) as i32);
@@ -55,7 +56,8 @@ fn velocity_and_acceleration_are_the_derivatives_of_the_track() {
     }
 }
 
-/// A point that is still the foremost one keeps its colour (but for the light), and one that is not has something in front.
+/// A point that is still the foremost one keeps its colour (but for the light), and one that is not has something in
+/// front.
 #[test]
 fn a_tracked_point_is_seen_again_unless_it_is_covered() {
     for scene in all() {

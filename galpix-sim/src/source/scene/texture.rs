@@ -1,5 +1,5 @@
-//! Procedural textures: smooth noise for the large forms, and patterns whose edges are softened over one texel so that a
-//! point sample of them stands for its pixel. Integer hashes and arithmetic only: the same bytes on every machine.
+//! Procedural textures: smooth noise for the large forms, and patterns whose edges are softened over one texel so that
+//! a point sample of them stands for its pixel. Integer hashes and arithmetic only: the same bytes on every machine.
 //!
 //! Lengths are in texels, of which a pixel of the finished picture should show about one. Coverages are within 0..=1.
 
@@ -143,8 +143,8 @@ pub fn sign(u: f64, v: f64, unit: f64) -> f64 {
         let bit = bits.is_some_and(|bits| bits << column.rem_euclid(6) & 0b1_0000 != 0);
         f64::from(u8::from(bit))
     };
-    // Between the middles of four units the ink is interpolated; cut below one half, strokes are bold, their corners round,
-    // and the steps of a diagonal hold together.
+    // Between the middles of four units the ink is interpolated; cut below one half, strokes are bold, their corners
+    // round, and the steps of a diagonal hold together.
     let ((i, u), (j, v)) = (cell(u / unit + 17.0, 1.0), cell(v / unit + 3.0, 1.0));
     let row = |j| inked(i, j) * (1.0 - u) + inked(i + 1, j) * u;
     cover((row(j) * (1.0 - v) + row(j + 1) * v - 0.38) * unit)

@@ -1,8 +1,9 @@
 //! A static library as a graph: sections that refer to sections.
 //!
-//! The compiler puts each function and each constant into a section of its own. Whatever code or data a section mentions, by
-//! a call, a jump or an address, stands in its relocations. So everything that a call of a function can ever run lies in the
-//! sections that its own section reaches, also what is only called through a pointer; there may be more, never less.
+//! The compiler puts each function and each constant into a section of its own. Whatever code or data a section
+//! mentions, by a call, a jump or an address, stands in its relocations. So everything that a call of a function can
+//! ever run lies in the sections that its own section reaches, also what is only called through a pointer; there may be
+//! more, never less.
 
 use std::collections::{HashMap, HashSet, VecDeque};
 

@@ -4,11 +4,13 @@
 //! optimisation. From each of its `proof_*` symbols on, everything that can be reached is visited (see [`library`]) and
 //! disassembled (see [`instructions`]).
 //!
-//! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame, one with constant work, one of three layers, scan-out with and without an overlay, and the replacing of objects, for each layout there, with
-//! a budget fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide, float or
-//! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. Of push-pull and the disocclusion map the same, but that
-//! it multiplies, by an instruction and not by a helper. Of the distortion map only that no panic can be reached. **Not
-//! proved:** the same for other layouts, for setting up a map, for budgets chosen at run time, or with overflow checks on.
+//! **Proved** for sweep (propagation and resolution), edge map, fill, a whole frame, one with constant work, one of
+//! three layers, scan-out with and without an overlay, and the replacing of objects, for each layout there, with a
+//! budget fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide,
+//! float or trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not
+//! read. Of push-pull and the disocclusion map the same, but that it multiplies, by an instruction and not by a helper.
+//! Of the distortion map only that no panic can be reached. **Not proved:** the same for other layouts, for setting up
+//! a map, for budgets chosen at run time, or with overflow checks on.
 //!
 //! The `planted_*` symbols each do one of these things and must be found.
 
@@ -65,8 +67,8 @@ fn build(target: &str, profile: &str) -> Option<Library> {
     Some(Library::read(&bytes).unwrap_or_else(|error| panic!("{}: {error}", file.display())))
 }
 
-/// What an entry of this name may do: push-pull takes means by weights, a layer is found by its number times its size, a rectangle's cells are counted at the border, and the
-/// disocclusion map is made once an update.
+/// What an entry of this name may do: push-pull takes means by weights, a layer is found by its number times its size,
+/// a rectangle's cells are counted at the border, and the disocclusion map is made once an update.
 fn allowed(entry: &str) -> Option<Deed> {
     ["proof_inpaint_", "proof_layers_", "proof_submit_", "proof_disocclusion_", "proof_cover_", "planted_inpaint_"]
         .iter()

@@ -1,9 +1,11 @@
-//! Spreading in steps of 1, 2, 4, ... cells, as Algorithm 2 of the supplement has it: for machines that work on all cells at once.
+//! Spreading in steps of 1, 2, 4, ... cells, as Algorithm 2 of the supplement has it: for machines that work on all
+//! cells at once.
 //!
-//! Each of the four scans of [`galpix_core::disocclusion::spread()`] in two rounds of steps. The extent that moves is as simple as printed: the largest of its own and of
-//! those `m` cells before it, shorter by `m`. The others are carried as far as an unbroken chain of cells hands them on. What breaks a chain, a cell that is shut and
-//! for the others one that does not reach the next, is kept in `linked`: cell by cell at first, then of twice as many cells if it held for both halves. Every step
-//! reads all cells as they were before it.
+//! Each of the four scans of [`galpix_core::disocclusion::spread()`] in two rounds of steps. The extent that moves is
+//! as simple as printed: the largest of its own and of those `m` cells before it, shorter by `m`. The others are
+//! carried as far as an unbroken chain of cells hands them on. What breaks a chain, a cell that is shut and for the
+//! others one that does not reach the next, is kept in `linked`: cell by cell at first, then of twice as many cells if
+//! it held for both halves. Every step reads all cells as they were before it.
 
 use galpix_core::Grid;
 use galpix_core::disocclusion::Extents;
@@ -11,7 +13,8 @@ use galpix_core::disocclusion::Extents;
 /// The bits of a word that are extents. Those between say that a cell is shut on a way.
 pub const EXTENTS: u32 = 0x7f7f_7f7f;
 
-/// The way in which a scan goes: the lowest bit of the extent that moves with it. That of the opposite way differs in bit 3.
+/// The way in which a scan goes: the lowest bit of the extent that moves with it. That of the opposite way differs in
+/// bit 3.
 const TO_THE_LEFT: u32 = 0;
 const TO_THE_RIGHT: u32 = 8;
 const UPWARDS: u32 = 16;

@@ -1,4 +1,5 @@
-//! The forms of the map against each other, bit by bit, and all of them against one that looks at each pair frame by frame.
+//! The forms of the map against each other, bit by bit, and all of them against one that looks at each pair frame by
+//! frame.
 
 use galpix_core::disocclusion::{Border, Extents, Reach, Tally, cover, map, mark, spread};
 use galpix_core::{Dynamic, Format, Galpixmap, Grid, Layout, Margin, Record, stages};
@@ -126,7 +127,8 @@ impl Reference<'_> {
         (-(-ahead >> scale.position_frac)).max(0)
     }
 
-    /// What two neighbours uncover: by the first and by the second. And on which way, backwards or onwards, one of them is shut.
+    /// What two neighbours uncover: by the first and by the second. And on which way, backwards or onwards, one of them
+    /// is shut.
     fn pair(&self, along: usize, first: Body, second: Body) -> (Option<[[i128; 4]; 2]>, [bool; 2]) {
         let across = 1 - along;
         let motion = |body: Body| body.map_or([Motion::default(); 2], |(_, motion)| motion);

@@ -17,8 +17,9 @@ fn mask(extents: &[printed::Extents]) -> u16 {
     extents.iter().enumerate().map(|(cell, extents)| u16::from(extents.iter().any(|&e| e > 0)) << cell).sum()
 }
 
-/// The cells that a near surface uncovers in one frame, over maps and all motions of up to 3 cells before a still one; and how many of
-/// them are missed by the printed algorithms; by these with the extents at the nearer cell; by the printed spreading of our own sources; by ours.
+/// The cells that a near surface uncovers in one frame, over maps and all motions of up to 3 cells before a still one;
+/// and how many of them are missed by the printed algorithms; by these with the extents at the nearer cell; by the
+/// printed spreading of our own sources; by ours.
 #[test]
 fn printed_algorithms_miss_what_ours_cover() {
     let format = dynamic(TINY_DEEP_SLIDE, bits(WHOLE));

@@ -1,6 +1,7 @@
 //! Algorithms 1 and 2 of the supplement as they are printed, line by line.
 //!
-//! Their y grows upwards; nothing but the names depends on that. What lies beyond the border is taken as the cell at it.
+//! Their y grows upwards; nothing but the names depends on that. What lies beyond the border is taken as the cell at
+//! it.
 
 /// Extents to the left, right, top, bottom.
 pub type Extents = [i32; 4];

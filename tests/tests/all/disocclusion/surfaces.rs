@@ -1,4 +1,5 @@
-//! Several surfaces over one another, whose second layer is known: how much of what is uncovered is covered, and how much else.
+//! Several surfaces over one another, whose second layer is known: how much of what is uncovered is covered, and how
+//! much else.
 
 use fixed::types::I32F32;
 use galpix_core::disocclusion::{Border, Reach, covered, map};
@@ -39,8 +40,8 @@ struct Count {
     missed: u32,
 }
 
-/// Lays out some surfaces, and counts hidden samples of the second layer: all, those that nothing is in front of after some frame, those that the map keeps,
-/// and those of the second kind that it does not.
+/// Lays out some surfaces, and counts hidden samples of the second layer: all, those that nothing is in front of after
+/// some frame, those that the map keeps, and those of the second kind that it does not.
 fn count(surfaces: &[Surface], frames: u32, through: bool, count: &mut Count) {
     let format = dynamic(Layout::VELOCITY565, SLIDE);
     let shape = Shape::plain(SIDE as u32, SIDE as u32);

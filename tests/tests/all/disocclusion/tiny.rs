@@ -122,11 +122,11 @@ pub fn with_grid<R>(work: impl FnOnce(Grid<'_>) -> R) -> R {
     work(Grid::new(SIDE as u32, SIDE as u32, Margin::NONE, &mut starts).unwrap())
 }
 
-/// What is uncovered after one frame: samples hidden behind the near surface that move like the far one, and that are in the map, where no
-/// galpixel is.
+/// What is uncovered after one frame: samples hidden behind the near surface that move like the far one, and that are
+/// in the map, where no galpixel is.
 ///
-/// `near` and `far`: cells moved. What moves over the border is left out where the map does not know it: unless what is beyond is still and so
-/// is the far surface.
+/// `near` and `far`: cells moved. What moves over the border is left out where the map does not know it: unless what is
+/// beyond is still and so is the far surface.
 pub fn uncovered(mask: u16, [near, far]: [[i32; 2]; 2], border: Border) -> u16 {
     let relative = [near[0] - far[0], near[1] - far[1]];
     let shown = mask & moved(ALL, far.map(|cells| -cells));

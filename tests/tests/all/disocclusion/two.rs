@@ -168,7 +168,8 @@ fn all_maps_of_two_velocities() {
     report("all maps, all differences of velocities", check(TINY_DEEP_SLIDE, SLIDE, &pairs, |_, _| true, 3..=3));
 }
 
-/// The same of all pairs of velocities, for 1 to 3 frames, of a part of the maps: a map depends on the difference alone.
+/// The same of all pairs of velocities, for 1 to 3 frames, of a part of the maps: a map depends on the difference
+/// alone.
 #[test]
 fn all_velocities() {
     let states = states(SLIDE, &[[0, 0]]);
@@ -177,7 +178,8 @@ fn all_velocities() {
     report("all velocities", check(TINY_DEEP_SLIDE, SLIDE, &pairs, sampled(64), 1..=3));
 }
 
-/// All maps, all differences of velocities and accelerations of a bit; and all pairs of these, which saturate, of a part of the maps.
+/// All maps, all differences of velocities and accelerations of a bit; and all pairs of these, which saturate, of a
+/// part of the maps.
 #[test]
 fn all_accelerations() {
     let states = states(ACCELERATED, &[[0, 0]]);

@@ -42,8 +42,8 @@ fn states(fields: &[Field]) -> u32 {
     1 << fields.iter().map(|field| u32::from(field.bits)).sum::<u32>()
 }
 
-/// Checks the slow arrivals, the sweep and a stationary layer of a map that holds every state of `across` by column and of `down` by row; all other bits are
-/// arbitrary and differ from cell to cell.
+/// Checks the slow arrivals, the sweep and a stationary layer of a map that holds every state of `across` by column and
+/// of `down` by row; all other bits are arbitrary and differ from cell to cell.
 fn check(layout: Layout, bits: Bits, across: &[Field], down: &[Field]) {
     let format = dynamic(layout, bits);
     let record = format.record();
@@ -110,7 +110,8 @@ fn swept(
     }
 }
 
-/// Compares a stationary layer, which loses nobody: the words of each galpixel after a step, and the cells that it moved.
+/// Compares a stationary layer, which loses nobody: the words of each galpixel after a step, and the cells that it
+/// moved.
 fn kept_in_their_cells(format: Dynamic, of: &Expected<'_>, before: &[Vec<u32>], expected: &[(Arrival, [i64; 2])]) {
     let base = Kind { winners: false, edges: false, stationary: false };
     let mut nothing = vec![0; of.record.words()];

@@ -1,7 +1,7 @@
 //! Camera paths in every layout, checked against pixel motion worked out on paper.
 //!
-//! `f = 100`, the optical axis meets pixel (2, 1), depth 2: a step of the camera by 0.02 to the right moves the picture by
-//! one pixel to the left.
+//! `f = 100`, the optical axis meets pixel (2, 1), depth 2: a step of the camera by 0.02 to the right moves the picture
+//! by one pixel to the left.
 
 use super::super::Capture;
 use super::super::CaptureError;

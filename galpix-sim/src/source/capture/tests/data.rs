@@ -47,7 +47,8 @@ fn changed(folder: &Path, changes: &[(&str, &str)]) -> Capture {
 #[test]
 fn all_twelve_captures_load() {
     let Some(data) = data() else { return };
-    // Folder, size, truths, share of cells that are known in percent (from the description of the data where it says so).
+    // Folder, size, truths, share of cells that are known in percent (from the description of the data where it says
+    // so).
     let captures = [
         ("blender/ball", [256, 256], 32, 100.0),
         ("blender/pan", [256, 256], 32, 100.0),

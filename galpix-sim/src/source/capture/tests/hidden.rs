@@ -13,8 +13,8 @@ fn flow(u: f32, v: f32) -> Vec<u8> {
     encode::pieh(4, 3, &cells(|_, _| [u, v]).concat())
 }
 
-/// A first layer at distance 2 that moves by (1, 0), and files of a second one: distances 2.5, 3, NaN and 0 in the columns, all moving
-/// by (-2, 0.5).
+/// A first layer at distance 2 that moves by (1, 0), and files of a second one: distances 2.5, 3, NaN and 0 in the
+/// columns, all moving by (-2, 0.5).
 fn folder() -> Folder {
     let second = cells(|x, _| [2.5, 3.0, f32::NAN, 0.0][x]);
     let rgb: Vec<u8> = cells(|x, y| [200, 30 * x as u8, 50 * y as u8]).concat();
@@ -94,7 +94,8 @@ fn layers_may_be_channels_of_one_file() {
     assert_eq!(sample.colour, [0, 255, 0]);
 }
 
-/// Three poses, each 0.1 to the right of the one before; `f = 20`, so that a point at distance 2 moves by one pixel to the left.
+/// Three poses, each 0.1 to the right of the one before; `f = 20`, so that a point at distance 2 moves by one pixel to
+/// the left.
 const PATH: &str = "0 0 0 0 0 0 1\n0.1 0 0 0 0 0 1\n0.2 0 0 0 0 0 1\n0.3 0 0 0 0 0 1\n";
 
 fn camera() -> String {
@@ -110,8 +111,8 @@ fn a_camera_moves_the_second_layer_too() {
     near(&behind(&capture, 1, 1).unwrap().velocity, &[-0.5, 0.0, 0.0], 1e-9);
 }
 
-/// A near column in front of a wall at 4. From pose 3 the wall is seen half a pixel times 2 = 1 pixel to the left of where the update has
-/// it, and the near column at 1 by 4 pixels: it is out of the picture, and the wall is seen whole.
+/// A near column in front of a wall at 4. From pose 3 the wall is seen half a pixel times 2 = 1 pixel to the left of
+/// where the update has it, and the near column at 1 by 4 pixels: it is out of the picture, and the wall is seen whole.
 #[test]
 fn a_picture_from_elsewhere_sees_behind_the_first_layer() {
     let first = cells(|x, _| if x == 2 { 1.0_f32 } else { 4.0 });

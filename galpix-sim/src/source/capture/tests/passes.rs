@@ -79,7 +79,8 @@ fn blender_vectors_in_parts_named_by_the_pass() {
 
 #[test]
 fn a_vector_averaged_over_a_border_is_replaced() {
-    // Columns 0 to 3 are a near surface that moves by 4, the others a far one at rest; at the border the vector is a mixture.
+    // Columns 0 to 3 are a near surface that moves by 4, the others a far one at rest; at the border the vector is a
+    // mixture.
     let (width, height) = (9, 5);
     let row = |values: [f32; 9]| -> Vec<f32> { (0..height).flat_map(|_| values).collect() };
     let speed = [-4.0, -4.0, -4.0, -2.0, -2.0, 0.0, 0.0, 0.0, 0.0];
