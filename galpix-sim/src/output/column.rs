@@ -271,7 +271,9 @@ pub fn html<R>(class: &str, columns: &[Column<R>], rows: &[R]) -> Markup {
                     @for row in rows {
                         tr {
                             @for (column, heading) in &shown {
-                                td class=[column.look.words.then_some("word")] { (PreEscaped(column.on_page(row, heading.digits))) }
+                                td class=[column.look.words.then_some("word")] {
+                                    (PreEscaped(column.on_page(row, heading.digits)))
+                                }
                             }
                         }
                     }
