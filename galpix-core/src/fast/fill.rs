@@ -251,7 +251,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
     /// Returns the mean of two cells.
     fn mean2(&self, a: u32, b: u32) -> Option<Words> {
         let (a, b) = (self.back.words_at(a)?, self.back.words_at(b)?);
-        Some(mean(self.back.record(), [&a, &b, &a, &b]))
+        Some(mean(self.back.record(), [&a, &b]))
     }
 
     /// Returns the mean of four cells.

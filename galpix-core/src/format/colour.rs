@@ -158,9 +158,16 @@ impl Colour {
     #[inline(always)]
     #[must_use]
     pub fn mean4(&self, colours: [u32; 4]) -> u32 {
+        self.mean(colours)
+    }
+
+    /// Returns the mean of two or four colours, channel by channel, halves upwards.
+    #[inline(always)]
+    pub(crate) fn mean<const N: usize>(&self, colours: [u32; N]) -> u32 {
+        const { assert!(N == 2 || N == 4, "a shift divides") }
         self.channels().fold(0, |mean, channel| {
-            let sum = colours.iter().fold(2, |sum, &colour| sum + channel.of(colour));
-            mean | (sum >> 2) << channel.shift
+            let sum = colours.iter().fold(N as u32 >> 1, |sum, &colour| sum + channel.of(colour));
+            mean | (sum >> N.trailing_zeros()) << channel.shift
         })
     }
 

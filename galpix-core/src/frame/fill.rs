@@ -137,26 +137,26 @@ pub fn fill<F: Format>(
     F::fill(front, back, scratch, settings, tally);
 }
 
-/// Returns the mean of four galpixels, field by field; class, tag and fraction of the luminosity are those of the
-/// first.
+/// Returns the mean of two or four galpixels, field by field, halves upwards; tag and fraction of the luminosity are those
+/// of the first.
 ///
-/// The mean of `p, q, p, q` is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, which is that of `p` and `q`; the mean of four
-/// times `p` is `(4p + 2) >> 2 = p`. The sum of four fields of 30 bits fits in 32 bits.
-///
-/// *Rounding:* to nearest, halves upwards.
+/// With `p, q, p, q` the mean of four is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p` it is
+/// `(4p + 2) >> 2 = p`. So the mean of four with repeats serves where the number of galpixels must not matter. The sum of
+/// four fields of 30 bits stays within 32.
 #[inline(always)]
-pub(crate) fn mean(record: &Record, [a, b, c, d]: [&Words; 4]) -> Words {
-    let mut mean = *a;
+pub(crate) fn mean<const N: usize>(record: &Record, galpixels: [&Words; N]) -> Words {
+    const { assert!(N == 2 || N == 4, "a shift divides") }
+    let mut mean = *galpixels[0];
     each_moving_field(record, |field| {
-        let sum = field.signed(a) + field.signed(b) + field.signed(c) + field.signed(d);
-        field.set(&mut mean, ((sum + 2) >> 2) as u32);
+        let sum = galpixels.iter().fold(N as i32 >> 1, |sum, words| sum + field.signed(words));
+        field.set(&mut mean, (sum >> N.trailing_zeros()) as u32);
     });
     let depth = record.depth();
-    let sum = depth.unsigned(a) + depth.unsigned(b) + depth.unsigned(c) + depth.unsigned(d);
-    depth.set(&mut mean, (sum + 2) >> 2);
+    let sum = galpixels.iter().fold(N as u32 >> 1, |sum, words| sum + depth.unsigned(words));
+    depth.set(&mut mean, sum >> N.trailing_zeros());
     let colour = record.colour();
-    let colours = [a, b, c, d].map(|words| colour.unsigned(words));
-    colour.set(&mut mean, record.colour_format().mean4(colours));
+    let colours = galpixels.map(|words| colour.unsigned(words));
+    colour.set(&mut mean, record.colour_format().mean(colours));
     mean
 }
 

