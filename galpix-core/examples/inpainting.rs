@@ -1,4 +1,4 @@
-//! Push-pull fills what a box uncovers of a gradient: `cargo run -p galpix-core --example inpainting`.
+//! Push-pull fills what a box uncovers of a gradient: `cargo run -p galpix-bench --bin inpainting`.
 
 use galpix_core::fixed::types::I32F32;
 use galpix_core::inpaint::{Gamma, Inpainting, Motion, PushPull};

@@ -14,16 +14,20 @@ BUILD = ROOT / "target" / "proofs" / "build"
 
 # File of galpix-core/src, what stands there, what is planted.
 MUTANTS = [
-    ("rounding.rs", "1 << (shift - 1)", "1 << shift >> 2"),
-    ("propagate.rs", "let step = (v << 1) + (a << scale.acceleration_up);", "let step = (v << 1) + (a << scale.acceleration_up & !1);"),
-    ("propagate.rs", "v.min(top).max(!top)", "v.min(top).max(-top)"),
-    ("resolve.rs", "challenger.source < incumbent.source", "challenger.source > incumbent.source"),
-    ("sweep.rs", "if key < incumbent {", "if key <= incumbent {"),
-    ("edge.rs", "source < -threshold", "source <= -threshold"),
-    ("fill.rs", "winner >= FILLED + round)", "winner > FILLED + round)"),
-    ("fill.rs", "if depth(&right) > depth(&left)", "if depth(&right) >= depth(&left)"),
+    ("format/rounding.rs", "1 << (shift - 1)", "1 << shift >> 2"),
+    (
+        "frame/step.rs",
+        "let step = (v << 1) + (a << scale.acceleration_up);",
+        "let step = (v << 1) + (a << scale.acceleration_up & !1);",
+    ),
+    ("frame/step.rs", "v.min(top).max(!top)", "v.min(top).max(-top)"),
+    ("frame/resolve.rs", "challenger.source < incumbent.source", "challenger.source > incumbent.source"),
+    ("fast/wide/mod.rs", "if key < incumbent {", "if key <= incumbent {"),
+    ("fast/wide/edge.rs", "source < -threshold", "source <= -threshold"),
+    ("fast/fill.rs", "winner >= FILLED + round)", "winner > FILLED + round)"),
+    ("fast/fill.rs", "if depth(&right) > depth(&left)", "if depth(&right) >= depth(&left)"),
     ("inpaint/quads.rs", "across > LARGEST || down > LARGEST", "across >= LARGEST || down > LARGEST"),
-    ("inpaint/push_pull.rs", "if depth - child.depth > rule.threshold { 0 }", "if depth - child.depth >= rule.threshold { 0 }"),
+    ("inpaint/kernel.rs", "if depth - child.depth > threshold { 0 }", "if depth - child.depth >= threshold { 0 }"),
 ]
 
 
@@ -39,7 +43,8 @@ def copy_tree():
 
 def test():
     """Whether the golden vectors have their hashes; what cargo printed."""
-    command = ["cargo", "test", "--locked", "--quiet", "--package", "galpix-golden", "--profile", "mutants", "--target-dir", BUILD]
+    command = ["cargo", "test", "--locked", "--quiet", "--package", "galpix-golden", "--profile", "mutants"]
+    command += ["--target-dir", BUILD]
     run = subprocess.run(command, cwd=TREE, capture_output=True, text=True)
     return run.returncode == 0, run.stdout + run.stderr
 

@@ -36,7 +36,7 @@ case "${1:-}" in
         solver
         cargo mutants --version >/dev/null 2>&1 || cargo install --locked cargo-mutants
         files=()
-        for stage in propagate resolve edge fill; do files+=(--file "galpix-core/src/$stage.rs"); done
+        for stage in frame/step frame/resolve frame/edge fast/fill; do files+=(--file "galpix-core/src/$stage.rs"); done
         cargo mutants --package galpix-core --test-package galpix-golden --profile mutants --output target/proofs \
             --minimum-test-timeout 20 "${files[@]}"
         ;;

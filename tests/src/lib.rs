@@ -11,3 +11,8 @@ pub mod packed;
 pub mod profiles;
 pub mod random;
 pub mod stage;
+
+/// README's program, compiled and run as a doctest.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;

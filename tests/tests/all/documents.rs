@@ -123,3 +123,20 @@ fn the_specification_has_the_engines_threshold_tables() {
     }
     assert_eq!(tables, Rounding::MOST_SEARCHED);
 }
+
+/// The first Rust program of a text, whose lines begin with `prefix`.
+fn program(text: &str, prefix: &str) -> String {
+    let lines = text.lines().map(|line| line.strip_prefix(prefix).or(line.strip_prefix(prefix.trim_end())).unwrap_or(line));
+    let body = lines.skip_while(|line| !line.starts_with("```rust") && (prefix.is_empty() || *line != "```"));
+    body.skip(1).take_while(|line| *line != "```").map(|line| line.to_owned() + "\n").collect()
+}
+
+#[test]
+fn the_readmes_program_is_the_crates_example() {
+    let read = |path: &str| fs::read_to_string(root().join(path)).unwrap();
+    let example = program(&read("galpix-core/src/lib.rs"), "//! ");
+    assert!(example.contains("fn main()"), "{example}");
+    for readme in ["README.md", "galpix-core/README.md"] {
+        assert_eq!(program(&read(readme), ""), example, "{readme}");
+    }
+}
