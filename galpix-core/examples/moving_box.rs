@@ -33,9 +33,8 @@ fn main() -> Result<(), SetupError> {
     let mut controller = Controller::new(front, back, Scratch { winners: &mut winners, edges: &mut edges })?;
     for frame in 1..=8 {
         let tally = controller.step(&Settings::for_depth(4));
-        let row: String =
-            galpix_core::scan_out::row(controller.front(), 4).map(|gray| if gray > 8 { '#' } else { '.' }).collect();
-        println!("frame {frame}: {row}  {} holes", tally.holes);
+        let row = scan_out::row(controller.front(), 4).map(|gray| if gray > 8 { '#' } else { '.' });
+        println!("frame {frame}: {}  {} holes", row.collect::<String>(), tally.holes);
     }
     Ok(())
 }

@@ -73,6 +73,11 @@ impl<'s, V: Stored> Pyramid<'s, V> {
     /// memory is shorter than [`Self::words`].
     pub fn over(levels: Levels, memory: &'s mut [u32]) -> Option<Self> {
         let cells = levels.cells();
+        // More cannot be addressed. Without the bound rustc 1.95 divides the length of the memory on thumbv6m, by
+        // `__aeabi_uidiv`: it does not know that the product of cells and words did not wrap.
+        if cells > usize::MAX / 16 {
+            return None;
+        }
         let (values, rest) = memory.split_at_mut_checked(cells * V::WORDS)?;
         let states = rest.get_mut(..cells.div_ceil(STATES as usize))?;
         states.fill(0);
