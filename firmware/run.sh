@@ -3,8 +3,9 @@
 #
 #   cd firmware/boards/lm3s6965evb && cargo run --release
 #
-# The panel is a window where there is a display. The serial line is TCP port 5331 (PORT=... changes it) of this machine, so that
-# beside it `galpix send crossing --to tcp:127.0.0.1:5331` sends a picture. The log goes through defmt-print.
+# The panel is a window where there is a display. The serial line is TCP port 5331 (PORT=... changes it) of this
+# machine, so that beside it `galpix send crossing --to tcp:127.0.0.1:5331` sends a picture. The log goes through
+# defmt-print.
 set -euo pipefail
 
 [ "$#" -ge 2 ] || { echo "run.sh: a board and its program: run.sh BOARD ELF" >&2; exit 2; }

@@ -142,8 +142,8 @@ step_build() {
     boards
 }
 
-# The programs of the boards with a panel, each without and with push-pull, and what they take of flash and RAM. A program of no size was linked without
-# its linker script.
+# The programs of the boards with a panel, each without and with push-pull, and what they take of flash and RAM. A
+# program of no size was linked without its linker script.
 boards() {
     local board target programs=()
     for board in lm3s6965evb vexpress-a9; do

@@ -34,8 +34,8 @@
 //! let (map, tally) = DistortionMap::new(grid, &depths, &settings, &mut owners, &mut splats)?;
 //! assert_eq!(tally.splats, 16);
 //!
-//! // Column 15 is the last of the near half. What is far and hidden two cells behind it is moved right by three cells, to
-//! // where it is seen; what is near stays.
+//! // Column 15 is the last of the near half. What is far and hidden two cells behind it is moved right by three
+//! // cells, to where it is seen; what is near stays.
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 9000), [3 * ONE, 0]);
 //! assert_eq!(map.displacement([13 * ONE, 8 * ONE], 1000), [0, 0]);
 //! # Ok::<(), galpix_core::SetupError>(())

@@ -137,12 +137,12 @@ pub fn fill<F: Format>(
     F::fill(front, back, scratch, settings, tally);
 }
 
-/// Returns the mean of two or four galpixels, field by field, halves upwards; tag and fraction of the luminosity are those
-/// of the first.
+/// Returns the mean of two or four galpixels, field by field, halves upwards; tag and fraction of the luminosity are
+/// those of the first.
 ///
-/// With `p, q, p, q` the mean of four is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p` it is
-/// `(4p + 2) >> 2 = p`. So the mean of four with repeats serves where the number of galpixels must not matter. The sum of
-/// four fields of 30 bits stays within 32.
+/// With `p, q, p, q` the mean of four is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p`
+/// it is `(4p + 2) >> 2 = p`. So the mean of four with repeats serves where the number of galpixels must not matter.
+/// The sum of four fields of 30 bits stays within 32.
 #[inline(always)]
 pub(crate) fn mean<const N: usize>(record: &Record, galpixels: [&Words; N]) -> Words {
     const { assert!(N == 2 || N == 4, "a shift divides") }

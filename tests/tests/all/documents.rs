@@ -126,7 +126,8 @@ fn the_specification_has_the_engines_threshold_tables() {
 
 /// The first Rust program of a text, whose lines begin with `prefix`.
 fn program(text: &str, prefix: &str) -> String {
-    let lines = text.lines().map(|line| line.strip_prefix(prefix).or(line.strip_prefix(prefix.trim_end())).unwrap_or(line));
+    let lines =
+        text.lines().map(|line| line.strip_prefix(prefix).or(line.strip_prefix(prefix.trim_end())).unwrap_or(line));
     let body = lines.skip_while(|line| !line.starts_with("```rust") && (prefix.is_empty() || *line != "```"));
     body.skip(1).take_while(|line| *line != "```").map(|line| line.to_owned() + "\n").collect()
 }

@@ -1,5 +1,5 @@
-//! Two ways of saying the same give the same bits: a format fixed at compile time and one chosen at run time; a field that is
-//! absent and one that is fed with zeros.
+//! Two ways of saying the same give the same bits: a format fixed at compile time and one chosen at run time; a field
+//! that is absent and one that is fed with zeros.
 
 use fixed::types::I32F32;
 use galpix_core::disocclusion::{self, Reach};
@@ -43,8 +43,8 @@ profiles! {
     Still: Layout::STILL, PAPER;
 }
 
-/// Compares all planes, tallies, winners and edges, on all scenes, fill modes and roundings; then what all passes make of
-/// random words.
+/// Compares all planes, tallies, winners and edges, on all scenes, fill modes and roundings; then what all passes make
+/// of random words.
 fn compile_time_is_run_time<P: Profile>() {
     let (fixed, chosen) = (Static::<P>::new(), dynamic(P::LAYOUT, P::BITS));
     assert_eq!(fixed.record(), chosen.record());

@@ -1,5 +1,5 @@
-//! Grafting objects against a slow reference: each galpixel alone in a map of its own for the frames that it missed, then the
-//! smallest of each cell by hand.
+//! Grafting objects against a slow reference: each galpixel alone in a map of its own for the frames that it missed,
+//! then the smallest of each cell by hand.
 
 use std::collections::VecDeque;
 
@@ -346,8 +346,8 @@ fn a_queue_says_what_it_needs() {
     assert_eq!(short.err(), Some(SetupError::TooShort { plane, need, have: 10 }));
 }
 
-/// A ball passes behind a pillar and in front of a wall, three layers. While it is covered it is rendered anew: faster, and of
-/// other colours. Nobody else notices, and it reappears where it should be by then.
+/// A ball passes behind a pillar and in front of a wall, three layers. While it is covered it is rendered anew: faster,
+/// and of other colours. Nobody else notices, and it reappears where it should be by then.
 #[test]
 fn an_object_that_is_covered_is_replaced_in_its_own_layer() {
     const WIDTH: u32 = 48;

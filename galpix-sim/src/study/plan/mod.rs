@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! update ─▶ extremes (how fast, how far) ─▶ motion (lanes and bits in the plane) ─▶ depth (lanes and bits of depth)
-//!                     ─▶ rung (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust that makes it so)
+//!                     ─▶ rung (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust)
 //! ```
 //!
 //! The plane is decided by arithmetic: what leaving a lane out costs at most is added to the certificate of what is

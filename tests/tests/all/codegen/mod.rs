@@ -4,12 +4,13 @@
 //! optimisation. From each of its `proof_*` symbols on, everything that can be reached is visited (see [`library`]) and
 //! disassembled (see [`instructions`]).
 //!
-//! **Proved** for propagation and resolution, edge map, fill and a whole frame in either mode, for each layout there, with a
-//! format fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply, divide, float or
-//! trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that was not read. For
-//! layers, scan-out with and without an overlay, objects, push-pull and the disocclusion map the same, but that they may
-//! multiply, by an instruction and not by a helper. For the distortion map only that no panic can be reached. **Not
-//! proved:** the same for other layouts, for setting up a map, for formats chosen at run time, or with overflow checks on.
+//! **Proved** for propagation and resolution, edge map, fill and a whole frame in either mode, for each layout there,
+//! with a format fixed at compile time and the compiler that runs the test: no panic can be reached, no multiply,
+//! divide, float or trap instruction, no helper but those that copy, fill, compare or shift 64 bits, and no code that
+//! was not read. For layers, scan-out with and without an overlay, objects, push-pull and the disocclusion map the
+//! same, but that they may multiply, by an instruction and not by a helper. For the distortion map only that no panic
+//! can be reached. **Not proved:** the same for other layouts, for setting up a map, for formats chosen at run time, or
+//! with overflow checks on.
 //!
 //! The `planted_*` symbols each do one of these things and must be found.
 

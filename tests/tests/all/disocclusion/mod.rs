@@ -1,7 +1,8 @@
 //! The disocclusion map against brute force, against the algorithms as printed, and its forms against each other.
 //!
 //! ```sh
-//! cargo test --locked --workspace --all-features --test all disocclusion:: -- --nocapture    # prints what docs/notes/disocclusion.md cites
+//! # Prints what docs/notes/disocclusion.md cites.
+//! cargo test --locked --workspace --all-features --test all disocclusion:: -- --nocapture
 //! ```
 
 mod doubling;

@@ -1,4 +1,5 @@
-//! Section 10 of the specification, cell by cell, for a map of which some cells belong to others: slow, from the text alone.
+//! Section 10 of the specification, cell by cell, for a map of which some cells belong to others: slow, from the text
+//! alone.
 
 use galpix_core::record::Field;
 use galpix_core::stages::{FILLED, NO_WINNER};
