@@ -3,7 +3,7 @@
 use crate::format::Format;
 use crate::format::record::Words;
 use crate::frame::edge::on_edge;
-use crate::frame::fill::{Around, FILLED, FillMode, NoFrameBefore, mean};
+use crate::frame::fill::{Around, FILLED, FillMode, NoFrameBefore, mean2, mean4};
 use crate::frame::resolve::NO_WINNER;
 use crate::frame::tally::Tally;
 use crate::frame::{Scratch, Settings};
@@ -251,13 +251,13 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
     /// Returns the mean of two cells.
     fn mean2(&self, a: u32, b: u32) -> Option<Words> {
         let (a, b) = (self.back.words_at(a)?, self.back.words_at(b)?);
-        Some(mean(self.back.record(), [&a, &b]))
+        Some(mean2(self.back.record(), [&a, &b]))
     }
 
     /// Returns the mean of four cells.
     fn mean4(&self, a: u32, b: u32, c: u32, d: u32) -> Option<Words> {
         let back = &self.back;
         let (a, b, c, d) = (back.words_at(a)?, back.words_at(b)?, back.words_at(c)?, back.words_at(d)?);
-        Some(mean(back.record(), [&a, &b, &c, &d]))
+        Some(mean4(back.record(), [&a, &b, &c, &d]))
     }
 }

@@ -158,17 +158,16 @@ impl Colour {
     #[inline(always)]
     #[must_use]
     pub fn mean4(&self, colours: [u32; 4]) -> u32 {
-        self.mean(colours)
+        self.channels().fold(0, |mean, channel| {
+            let sum = colours.iter().fold(2, |sum, &colour| sum + channel.of(colour));
+            mean | (sum >> 2) << channel.shift
+        })
     }
 
-    /// Returns the mean of two or four colours, channel by channel, halves upwards.
+    /// Returns the mean of two colour words, as [`Self::mean4`] of `p, q, p, q`.
     #[inline(always)]
-    pub(crate) fn mean<const N: usize>(&self, colours: [u32; N]) -> u32 {
-        const { assert!(N == 2 || N == 4, "a shift divides") }
-        self.channels().fold(0, |mean, channel| {
-            let sum = colours.iter().fold(N as u32 >> 1, |sum, &colour| sum + channel.of(colour));
-            mean | (sum >> N.trailing_zeros()) << channel.shift
-        })
+    pub(crate) fn mean2(&self, [p, q]: [u32; 2]) -> u32 {
+        self.channels().fold(0, |mean, channel| mean | ((channel.of(p) + channel.of(q) + 1) >> 1) << channel.shift)
     }
 
     /// Returns the colour word after adding `steps` of luminosity, each channel clamped to its range.

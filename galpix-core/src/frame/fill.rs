@@ -137,26 +137,41 @@ pub fn fill<F: Format>(
     F::fill(front, back, scratch, settings, tally);
 }
 
-/// Returns the mean of two or four galpixels, field by field, halves upwards; tag and fraction of the luminosity are
-/// those of the first.
+/// Returns the mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity are those of the
+/// first. The sum of four fields of 30 bits fits in 32 bits.
 ///
-/// With `p, q, p, q` the mean of four is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p`
-/// it is `(4p + 2) >> 2 = p`. So the mean of four with repeats serves where the number of galpixels must not matter.
-/// The sum of four fields of 30 bits stays within 32.
+/// With `p, q, p, q` it is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p` it is
+/// `(4p + 2) >> 2 = p`. So it serves where the number of galpixels must not matter.
 #[inline(always)]
-pub(crate) fn mean<const N: usize>(record: &Record, galpixels: [&Words; N]) -> Words {
-    const { assert!(N == 2 || N == 4, "a shift divides") }
-    let mut mean = *galpixels[0];
-    each_moving_field(record, |field| {
-        let sum = galpixels.iter().fold(N as i32 >> 1, |sum, words| sum + field.signed(words));
-        field.set(&mut mean, (sum >> N.trailing_zeros()) as u32);
-    });
-    let depth = record.depth();
-    let sum = galpixels.iter().fold(N as u32 >> 1, |sum, words| sum + depth.unsigned(words));
-    depth.set(&mut mean, sum >> N.trailing_zeros());
-    let colour = record.colour();
-    let colours = galpixels.map(|words| colour.unsigned(words));
-    colour.set(&mut mean, record.colour_format().mean(colours));
+pub(crate) fn mean4(record: &Record, [a, b, c, d]: [&Words; 4]) -> Words {
+    let (depth, colour) = (record.depth(), record.colour());
+    let depths = depth.unsigned(a) + depth.unsigned(b) + depth.unsigned(c) + depth.unsigned(d);
+    let colours = [colour.unsigned(a), colour.unsigned(b), colour.unsigned(c), colour.unsigned(d)];
+    let sum = |field: Field| field.signed(a) + field.signed(b) + field.signed(c) + field.signed(d);
+    mean_of::<2>(record, a, sum, (depths, record.colour_format().mean4(colours)))
+}
+
+/// Returns the mean of two galpixels, as [`mean4`] of `p, q, p, q`: half as many fields to read.
+#[inline(always)]
+pub(crate) fn mean2(record: &Record, [a, b]: [&Words; 2]) -> Words {
+    let (depth, colour) = (record.depth(), record.colour());
+    let colours = [colour.unsigned(a), colour.unsigned(b)];
+    let sum = |field: Field| field.signed(a) + field.signed(b);
+    mean_of::<1>(record, a, sum, (depth.unsigned(a) + depth.unsigned(b), record.colour_format().mean2(colours)))
+}
+
+/// Divides the sums of `2^LOG` galpixels, which are given for each moving field and for the depth, beside their mean colour.
+#[inline(always)]
+fn mean_of<const LOG: u32>(
+    record: &Record,
+    first: &Words,
+    sum: impl Fn(Field) -> i32,
+    (depths, colour): (u32, u32),
+) -> Words {
+    let mut mean = *first;
+    each_moving_field(record, |field| field.set(&mut mean, ((sum(field) + (1 << LOG >> 1)) >> LOG) as u32));
+    record.depth().set(&mut mean, (depths + (1 << LOG >> 1)) >> LOG);
+    record.colour().set(&mut mean, colour);
     mean
 }
 

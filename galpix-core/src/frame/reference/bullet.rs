@@ -1,12 +1,12 @@
 //! The value that every cell would take as a bullet hole: always a mean of four cells.
 //!
-//! Means of one and of two cells are means of four cells with repetitions, see [`mean`].
+//! Means of one and of two cells are means of four cells with repetitions, see [`mean4`].
 
 use super::{below, choose, negative, not_zero, opaque};
 use crate::format::Format;
 use crate::format::record::Words;
 use crate::frame::edge::on_edge;
-use crate::frame::fill::{Around, FILLED, mean};
+use crate::frame::fill::{Around, FILLED, mean4};
 use crate::frame::resolve::NO_WINNER;
 use crate::map::Galpixmap;
 
@@ -90,7 +90,7 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
         let words = |cell: u32| self.back.words_at(cell).unwrap_or_default();
         let (first, second) = (words(chosen.first), words(chosen.second));
         let (third, fourth) = (words(chosen.third), words(chosen.fourth));
-        (mean(self.back.record(), [&first, &second, &third, &fourth]), chosen.any)
+        (mean4(self.back.record(), [&first, &second, &third, &fourth]), chosen.any)
     }
 
     /// Returns the winner of the cell at a place; [`NO_WINNER`] beyond the border.
