@@ -101,14 +101,14 @@ impl Colour {
     }
 
     /// Returns whether the format has a single channel, the luminosity.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub const fn is_gray(self) -> bool {
         self.count == 1
     }
 
     /// Returns the bits of channel 0, 1 or 2; the channel of a gray format stands for all three.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub(crate) const fn channel_bits(&self, channel: usize) -> u32 {
         self.channels[channel].bits
@@ -197,7 +197,7 @@ const fn check(bits: u32) -> Result<(), BudgetError> {
 /// Returns the paper's estimate of the luminosity, with the weights 1/4, 1/2 and 1/4: `(red + 2 green + blue) / 4`.
 ///
 /// *Rounding:* downwards.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub const fn luminosity([red, green, blue]: [u8; 3]) -> u8 {
     ((red as u32 + ((green as u32) << 1) + blue as u32) >> 2) as u8

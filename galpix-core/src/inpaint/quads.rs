@@ -77,7 +77,7 @@ pub(crate) fn lay_background<F: Format>(
             // A bit for each quad: two columns of it.
             let quads = (on_edge | on_edge >> 1) & ((1 << run) - 1);
             if quads != 0 {
-                changed += step.draw_run(quads, x, y, row, next);
+                changed += step.draw_run(quads, x, y, [row, next]);
             }
             x += run;
         }
@@ -110,7 +110,7 @@ fn motion(record: &Record) -> Words {
 impl<F: Format> Step<'_, '_, '_, F> {
     /// Draws the quads right of column `x + i` for all set bits `i`.
     #[inline(never)]
-    fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, row: u32, next: u32) -> u32 {
+    fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, [row, next]: [u32; 2]) -> u32 {
         let mut changed = 0;
         let mut known: Option<(u32, [Option<Corner>; 2])> = None;
         while quads != 0 {

@@ -266,7 +266,7 @@ fn step_run<F: Format>(
     target: &mut Target<'_, '_, F>,
 ) -> Option<u32> {
     let record = front.record();
-    let Target { back, winners, .. } = target;
+    let (back, winners) = (&mut *target.back, &mut *target.winners);
     let mut count = run.most;
     if (words_of(record, X) | words_of(record, Y)) & words_of(record, DEPTH) == 0 {
         // A new cell stays empty until its class is written, so that a later part may still shorten the run.
@@ -315,7 +315,7 @@ fn step_one<F: Format>(
     thresholds: &[i32; 3],
     target: &mut Target<'_, '_, F>,
 ) {
-    let Target { back, winners, tally } = target;
+    let (back, winners, tally) = (&mut *target.back, &mut *target.winners, &mut *target.tally);
     let Some(mut words) = front.words_at(source) else { return };
     let step = advance::<true>(front.record(), thresholds, &mut words);
     tally.moved += 1;
