@@ -67,6 +67,7 @@ pub fn offset_of_frame(rounding: Rounding, frame: u32, dropped: u32, frac: u32) 
 /// Equation (6): `r + v + a/2`, cut off to `frac` fraction bits after the frame's offset was added; as raw number.
 /// `v_frac` are the fraction bits of `v`, and one more those of the sum.
 #[must_use]
+#[expect(clippy::too_many_arguments, reason = "one for each term of the equation")]
 pub fn position(r: Exact, v: Exact, a: Exact, rounding: Rounding, frame: u32, v_frac: u32, frac: u32) -> i64 {
     let dropped = (v_frac + 1).saturating_sub(frac);
     r.plus(v).plus(a.half()).plus(offset_of_frame(rounding, frame, dropped, frac)).floor(frac)

@@ -73,6 +73,9 @@ fn compile_time_is_run_time<P: Profile>() {
     }
 }
 
+/// What a frame of base and layer gave: its counts, and both maps' words.
+type Layered = (Tally, Vec<u32>, Vec<u32>);
+
 /// What all passes make of a map.
 struct Made {
     /// Frames by each entry point.
@@ -80,7 +83,7 @@ struct Made {
     /// In one map.
     rolled: Vec<(Tally, Vec<u32>)>,
     /// As base and layer, by each entry point.
-    layered: [Vec<(Tally, Vec<u32>, Vec<u32>)>; 2],
+    layered: [Vec<Layered>; 2],
     /// With holes inpainted.
     inpainted: Vec<(u32, Vec<u32>)>,
     /// The disocclusion map, and as a mask.
@@ -115,13 +118,7 @@ impl Made {
     }
 }
 
-fn layered<F: Format>(
-    format: F,
-    shape: Shape,
-    content: &[u32],
-    settings: &Settings,
-    mode: Mode,
-) -> Vec<(Tally, Vec<u32>, Vec<u32>)> {
+fn layered<F: Format>(format: F, shape: Shape, content: &[u32], settings: &Settings, mode: Mode) -> Vec<Layered> {
     let kind = Kind { winners: true, edges: true, stationary: false };
     let cells = shape.cells() as usize;
     let cell = |cell: usize| content.iter().skip(cell).step_by(cells).copied().collect::<Vec<_>>();

@@ -275,7 +275,6 @@ fn a_queue_is_a_list_within_its_limits() {
             assert_eq!((queue.waiting(), queue.left()), (list.len(), LIMITS.cells - waiting), "turn {turn}");
             assert_eq!(queue.refusals(), counted, "turn {turn}");
         }
-        drop(queue);
         assert_eq!(memory[memory.len() - 5..], [0; 5], "words beyond the limit are not touched");
     });
     let Refusals { cells, age, ahead, queue, memory, .. } = counted;

@@ -109,7 +109,7 @@ impl Study for Plan {
         scene.name()
     }
 
-    fn resolve<'s>(&self, scene: &'s &'static dyn Scene) -> Result<&'static dyn Scene, StudyError> {
+    fn resolve(&self, scene: &&'static dyn Scene) -> Result<&'static dyn Scene, StudyError> {
         Ok(*scene)
     }
 

@@ -92,7 +92,7 @@ impl Study for Request {
         "stability"
     }
 
-    fn resolve<'s>(&self, (): &'s ()) -> Result<(), StudyError> {
+    fn resolve(&self, (): &()) -> Result<(), StudyError> {
         self.check().map_err(StudyError::unusable)
     }
 

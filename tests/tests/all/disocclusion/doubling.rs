@@ -63,7 +63,7 @@ pub fn spread_by_doubling(extents: &mut [u32], spare: &mut [u32], grid: &Grid<'_
         let levels = 32 - side.leading_zeros();
         link(extents, linked, grid, scan, |_| true);
         for level in 0..levels {
-            step(extents, next, grid, scan, 1 << level, |own, before, cell| {
+            step([extents, next], grid, scan, 1 << level, |own, before, cell| {
                 let extent = before >> scan.way & NO_END;
                 let moved = if extent == NO_END { extent } else { extent.saturating_sub(1 << level) };
                 if at(linked, cell) >> IS & 1 != 0 { larger(own, moved << scan.way) } else { own }
@@ -75,7 +75,7 @@ pub fn spread_by_doubling(extents: &mut [u32], spare: &mut [u32], grid: &Grid<'_
             // The first step leaves nothing but one cell behind a cell that it reaches.
             let carried = EXTENTS & !(0xff << scan.way | 0xff << (scan.way ^ 8));
             let behind = if level == 0 { 1 << (scan.way ^ 8) } else { 0 };
-            step(extents, next, grid, scan, 1 << level, |own, before, cell| {
+            step([extents, next], grid, scan, 1 << level, |own, before, cell| {
                 if at(linked, cell) >> IS & 1 != 0 { larger(own, before & carried | behind) } else { own }
             });
             double(linked, grid, scan, 1 << level);
@@ -103,14 +103,7 @@ fn back(grid: &Grid<'_>, scan: Scan, x: u32, y: u32, by: i32) -> Option<u32> {
 }
 
 /// Each cell that has one `by` cells back becomes `new(itself, that one, its number)`.
-fn step(
-    extents: &mut [u32],
-    next: &mut [u32],
-    grid: &Grid<'_>,
-    scan: Scan,
-    by: i32,
-    new: impl Fn(u32, u32, u32) -> u32,
-) {
+fn step([extents, next]: [&mut [u32]; 2], grid: &Grid<'_>, scan: Scan, by: i32, new: impl Fn(u32, u32, u32) -> u32) {
     for (start, x, y) in places(grid) {
         let cell = start + x;
         let own = at(extents, cell);

@@ -98,6 +98,7 @@ impl Memory {
     }
 
     /// The cells that the disocclusion map covers.
+    #[expect(clippy::too_many_arguments, reason = "one case of the enumeration, in its own terms")]
     pub fn covered(
         &mut self,
         grid: Grid<'_>,
