@@ -137,8 +137,8 @@ pub fn fill<F: Format>(
     F::fill(front, back, scratch, settings, tally);
 }
 
-/// Returns the mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity are those of the
-/// first. The sum of four fields of 30 bits fits in 32 bits.
+/// Returns the mean of four galpixels, field by field, halves upwards; tag and fraction of the luminosity are those of
+/// the first. The sum of four fields of 30 bits fits in 32 bits.
 ///
 /// With `p, q, p, q` it is `(2p + 2q + 2) >> 2 = (p + q + 1) >> 1`, the mean of two; with four times `p` it is
 /// `(4p + 2) >> 2 = p`. So it serves where the number of galpixels must not matter.
@@ -160,7 +160,8 @@ pub(crate) fn mean2(record: &Record, [a, b]: [&Words; 2]) -> Words {
     mean_of::<1>(record, a, sum, (depth.unsigned(a) + depth.unsigned(b), record.colour_format().mean2(colours)))
 }
 
-/// Divides the sums of `2^LOG` galpixels, which are given for each moving field and for the depth, beside their mean colour.
+/// Divides the sums of `2^LOG` galpixels, which are given for each moving field and for the depth, beside their mean
+/// colour.
 #[inline(always)]
 fn mean_of<const LOG: u32>(
     record: &Record,

@@ -145,7 +145,7 @@ mod tests {
         let levels = Levels::new(width, height);
         let mut memory = vec![u32::MAX; words(width, height, 2)];
         let mut active = ActiveTiles::new(levels, 2, &mut memory).unwrap();
-        let is_requested = |level: u32, x: u32, y: u32| (x * 7 + y * 13 + level) % 5 == 0;
+        let is_requested = |level: u32, x: u32, y: u32| (x * 7 + y * 13 + level).is_multiple_of(5);
         for level in 0..4 {
             for (x, y) in (0..40).flat_map(|y| (0..80).map(move |x| (x, y))) {
                 if is_requested(level, x, y) {

@@ -54,7 +54,7 @@ fn pull(below: &Level, gamma: Gamma, threshold: i64, number: usize) -> Level {
 }
 
 /// Returns what a cell of level `number` gets from the completed level above.
-fn sample(above: &Level, x: usize, y: usize, depth: i64, threshold: i64, number: usize) -> Option<i64> {
+fn sample(above: &Level, [x, y]: [usize; 2], depth: i64, threshold: i64, number: usize) -> Option<i64> {
     let beside = |at: usize| if at % 2 == 1 { (at / 2) as isize + 1 } else { (at / 2) as isize - 1 };
     let (own, other) = ((x / 2) as isize, beside(x));
     let (row, across) = ((y / 2) as isize, beside(y));
@@ -79,7 +79,7 @@ pub fn filled(picture: &Level, gamma: Gamma, threshold: i64) -> Vec<Vec<Option<i
         let (below, above) = levels.split_at_mut(number + 1);
         for (y, row) in below[number].iter_mut().enumerate() {
             for (x, cell) in row.iter_mut().enumerate() {
-                let from_above = sample(&above[0], x, y, cell.depth, threshold, number);
+                let from_above = sample(&above[0], [x, y], cell.depth, threshold, number);
                 match from_above {
                     Some(value) if cell.validity < 16 => {
                         let sum = cell.validity * cell.value + (16 - cell.validity) * value;
@@ -91,7 +91,7 @@ pub fn filled(picture: &Level, gamma: Gamma, threshold: i64) -> Vec<Vec<Option<i
         }
     }
     let of = |x: usize, y: usize, cell: &Cell| {
-        if top == 0 { None } else { sample(&levels[1], x, y, cell.depth, threshold, 0) }
+        if top == 0 { None } else { sample(&levels[1], [x, y], cell.depth, threshold, 0) }
     };
     let row = |(y, row): (usize, &Vec<Cell>)| row.iter().enumerate().map(|(x, cell)| of(x, y, cell)).collect();
     picture.iter().enumerate().map(row).collect()
