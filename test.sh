@@ -125,7 +125,7 @@ step_no-std() {
     for target in "${BARE_TARGETS[@]}"; do
         for features in "" embedded-graphics defmt embedded-graphics,defmt; do
             echo "galpix-core for $target with features: ${features:-none}"
-            cargo build --locked --quiet -p galpix-core --lib --target "$target" --features "$features"
+            cargo check --locked --quiet -p galpix-core --lib --target "$target" --features "$features"
         done
     done
 }
@@ -184,9 +184,9 @@ step_msrv() {
         check --locked --workspace --all-features
 }
 
-# What is published: the package is complete and builds by itself. Licences and bans where cargo-deny is installed.
+# What is published: the package is complete and builds by itself, from what is already fetched. Licences and bans where cargo-deny is installed.
 step_package() {
-    cargo publish --locked --dry-run --allow-dirty -p galpix-core
+    cargo package --locked --offline --allow-dirty -p galpix-core
     if cargo deny --version >/dev/null 2>&1; then
         cargo deny --offline check bans licenses sources
     else
