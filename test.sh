@@ -184,7 +184,8 @@ step_msrv() {
         check --locked --workspace --all-features
 }
 
-# What is published: the package is complete and builds by itself, from what is already fetched. Licences and bans where cargo-deny is installed.
+# What is published: the package is complete and builds by itself, from what is already fetched. Licences and bans where
+# cargo-deny is installed.
 step_package() {
     cargo package --locked --offline --allow-dirty -p galpix-core
     if cargo deny --version >/dev/null 2>&1; then
