@@ -27,14 +27,17 @@ const LOOK: u32 = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel: Stored {
-    /// How it is taken from stored colours.
-    type From: Copy;
+    /// A colour format looked up: how values are taken from colours whose format is no constant.
+    type Table: Copy;
 
     /// Looks a format up.
-    fn from(format: &Colour) -> Self::From;
+    fn table(format: &Colour) -> Self::Table;
 
-    /// Returns what a cell of this colour holds.
-    fn of(from: &Self::From, colour: u32, cell: u32) -> Self;
+    /// Returns what a cell of this colour holds, for a format that is a constant.
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self;
+
+    /// Returns what a cell of this colour holds, for any format.
+    fn looked_up(table: &Self::Table, colour: u32, cell: u32) -> Self;
 
     /// Returns the words of a hole that held `words` and gets this.
     fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words;
@@ -42,16 +45,21 @@ pub trait OfGalpixel: Stored {
 
 /// The colour alone: the motion stays the one that the fill mode gave.
 impl OfGalpixel for Tint {
-    type From = TintOf;
+    type Table = TintOf;
 
     #[inline(always)]
-    fn from(format: &Colour) -> TintOf {
+    fn table(format: &Colour) -> TintOf {
         TintOf::new(format)
     }
 
     #[inline(always)]
-    fn of(from: &TintOf, colour: u32, _: u32) -> Self {
-        from.tint(colour)
+    fn of(format: &Colour, colour: u32, _: u32) -> Self {
+        Self::of(format, colour)
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &TintOf, colour: u32, _: u32) -> Self {
+        table.tint(colour)
     }
 
     #[inline(always)]
@@ -63,16 +71,21 @@ impl OfGalpixel for Tint {
 
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl OfGalpixel for Moving {
-    type From = TintOf;
+    type Table = TintOf;
 
     #[inline(always)]
-    fn from(format: &Colour) -> TintOf {
+    fn table(format: &Colour) -> TintOf {
         TintOf::new(format)
     }
 
     #[inline(always)]
-    fn of(from: &TintOf, colour: u32, cell: u32) -> Self {
-        Self { tint: from.tint(colour), source: cell }
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { tint: Tint::of(format, colour), source: cell }
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &TintOf, colour: u32, cell: u32) -> Self {
+        Self { tint: table.tint(colour), source: cell }
     }
 
     #[inline(always)]
@@ -144,22 +157,23 @@ pub struct Uncovered<'m, 'p, F, V: OfGalpixel> {
     pub(super) map: &'m mut Galpixmap<'p, F>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
-    /// See [`Self::from`].
-    from: V::From,
+    /// The colour format, looked up.
+    table: V::Table,
 }
 
 impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
     /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask
     /// stands for all of them, and beyond the end of one no hole is filled.
     pub fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
-        let from = V::from(map.record().colour_format());
-        Self { map, mask, from }
+        let table = V::table(map.record().colour_format());
+        Self { map, mask, table }
     }
 
-    /// Returns how values are taken from stored colours: a constant, where the format is one.
+    /// Returns how the value of a cell is taken from its colour.
     #[inline(always)]
-    pub(super) fn from(&self) -> V::From {
-        if F::FIXED { V::from(self.map.record().colour_format()) } else { self.from }
+    pub(super) fn reader(&self) -> impl Fn(u32, u32) -> V {
+        let (format, table) = (self.map.record().colour_format(), self.table);
+        move |colour, cell| if F::FIXED { V::of(format, colour, cell) } else { V::looked_up(&table, colour, cell) }
     }
 
     /// Returns what is known of a cell with this class and depth.
@@ -172,7 +186,7 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
         if class == Class::Galpixel as u32 {
-            Known { validity: FULL, depth, value: V::of(&self.from(), self.map.colour(cell), cell) }
+            Known { validity: FULL, depth, value: self.reader()(self.map.colour(cell), cell) }
         } else {
             Known { validity: 0, depth, value: V::default() }
         }
@@ -275,12 +289,12 @@ impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
         if all >> bits != 0 || uneven != 0 {
             return None;
         }
-        let from = self.from();
+        let read = self.reader();
         let values = |cell: u32| {
             let mut values = [V::default(); CELLS];
             let colours = self.map.colours(cell as usize..cell as usize + CELLS);
             for ((value, colour), cell) in values.iter_mut().zip(colours).zip(cell..) {
-                *value = V::of(&from, colour, cell);
+                *value = read(colour, cell);
             }
             values
         };

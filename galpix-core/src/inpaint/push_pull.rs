@@ -1,7 +1,8 @@
 //! Push-pull: known cells are pulled up into ever coarser levels, and what is missing is pushed down from them.
 //!
-//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]. Where 2 % of
-//! the cells of a picture of 1024 x 1024 are holes, that takes a third of the time of all cells of all levels.
+//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]. Where a step
+//! leaves 2 % of 1024 x 1024 cells as holes, the classic push-pull takes 0.8 ns a cell by it and 2.5 with all cells of
+//! all levels, the depth-aware one with gamma 0 1.6 and 2.9 (`docs/inpainting.md`, sparse and dense).
 
 use super::kernel::{Known, below, each, pulled, sampled};
 use super::lazy::{Base, Lazy};
@@ -109,14 +110,16 @@ impl<P: Holed> Base<P::Value> for Rows<'_, P> {
     }
 
     fn pull(&mut self, pyramid: &mut Pyramid<'_, P::Value>, level: u32, x: u32, y: u32) {
+        // Held in registers while cells are written.
+        let rows = Rows { picture: self.picture, inpainting: self.inpainting };
         for below in 1..level {
             let up = level - below;
             let height = pyramid.levels().level(below).height;
             for y in y << up..((y + 1) << up).min(height) {
-                self.pull_row(pyramid, below, (x << up, y), 1 << up);
+                rows.pull_row(pyramid, below, (x << up, y), 1 << up);
             }
         }
-        self.pull_cell(pyramid, level, x, y);
+        rows.pull_cell(pyramid, level, x, y);
     }
 }
 

@@ -108,7 +108,7 @@ fn motion(record: &Record) -> Words {
 }
 
 impl<F: Format> Step<'_, '_, '_, F> {
-    /// Draws the quads right of column `x + i` for all set bits `i`.
+    /// Draws the quads right of column `x + i` for all set bits `i`, between the rows that begin at these two cells.
     #[inline(never)]
     fn draw_run(&mut self, mut quads: u32, x: u32, y: i32, [row, next]: [u32; 2]) -> u32 {
         let mut changed = 0;

@@ -55,16 +55,21 @@ impl ToneOf {
 
 /// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
 impl OfGalpixel for Tone {
-    type From = ToneOf;
+    type Table = ToneOf;
 
     #[inline(always)]
-    fn from(format: &Colour) -> ToneOf {
+    fn table(format: &Colour) -> ToneOf {
         ToneOf::new(format)
     }
 
     #[inline(always)]
-    fn of(from: &ToneOf, colour: u32, cell: u32) -> Self {
-        Self { channels: from.channels(colour), source: cell }
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { channels: ycbcr::of_rgb(format.to_rgb888(colour)), source: cell }
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &ToneOf, colour: u32, cell: u32) -> Self {
+        Self { channels: table.channels(colour), source: cell }
     }
 
     #[inline(always)]
@@ -107,13 +112,13 @@ impl<F: Format> Scene for Uncovered<'_, '_, F, Tone> {
         for (to, colour) in colours.iter_mut().zip(self.map.colours(first..first + count)) {
             *to = colour;
         }
-        let from = self.from();
+        let read = self.reader();
         for x in 0..COLUMNS {
             let depth = pyramid_depth(keys[x] & ((1 << bits) - 1), bits);
             let class = keys[x] >> bits;
             cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
             cells.known[x] = -((class == Class::Galpixel as u32) as i32);
-            let [luma, blue, red] = from.channels(colours[x]);
+            let [luma, blue, red] = read(colours[x], 0).channels;
             cells.channels[0][x] = luma;
             cells.channels[1][x] = blue;
             cells.channels[2][x] = red;

@@ -65,7 +65,7 @@ impl Default for Recipe {
     }
 }
 
-/// Where the tiles of a [`Metamer`] are worked out, 26 KiB. What is in it does not matter.
+/// Where the tiles of a [`Metamer`] are worked out, 27 KiB. What is in it does not matter.
 #[derive(Debug)]
 pub struct MetamerWorkspace {
     responses: Workspace,

@@ -149,7 +149,7 @@ const fn linear([a, b, c, d]: [i16; 4], tie: u32) -> i16 {
 }
 
 impl Value for Statistics {
-    /// Mean and deviation are smooth where they are known: between places they are interpolated as they are.
+    /// Interpolates mean and deviation as they are: both are smooth where they are known.
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
         let mut mean = Self::default();
