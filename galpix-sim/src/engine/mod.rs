@@ -6,20 +6,20 @@ pub mod fill;
 mod layer;
 mod load;
 mod origins;
+mod scan_out;
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
-use galpix_core::overlay::{self, Overlay};
-use galpix_core::{
-    BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally, scan_out,
-};
+use galpix_core::overlay::Overlay;
+use galpix_core::{BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally};
 
 pub use layer::Beside;
 pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
+pub use scan_out::ScanOut;
 
 use crate::picture::Picture;
 use crate::update::Update;
@@ -78,6 +78,8 @@ pub struct Frame<'f> {
     pub time: Duration,
     map: &'f Galpixmap<'f, Dynamic>,
     overlay: Option<&'f Overlay<'f>>,
+    settings: &'f Settings,
+    scan_out: ScanOut,
     origins: &'f [u32],
 }
 
@@ -87,6 +89,7 @@ pub struct Engine {
     settings: Settings,
     inpaint: Option<Inpaint>,
     constant_time: bool,
+    scan_out: ScanOut,
 }
 
 /// An update, and the layers beside it, the first of which is layer 1.
@@ -100,13 +103,19 @@ impl Engine {
     /// Makes an engine for maps of a format.
     #[must_use]
     pub const fn new(format: Dynamic, settings: Settings) -> Self {
-        Self { format, settings, inpaint: None, constant_time: false }
+        Self { format, settings, inpaint: None, constant_time: false, scan_out: ScanOut::Nearest }
     }
 
     /// The same with inpainting after each frame; its fill mode should be [`crate::engine::fill::Fill::rung`]'s.
     #[must_use]
     pub const fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
         Self { inpaint, ..self }
+    }
+
+    /// The same with pictures that are made in another way.
+    #[must_use]
+    pub const fn scanning_out(self, scan_out: ScanOut) -> Self {
+        Self { scan_out, ..self }
     }
 
     /// The same by instructions that do not depend on the picture, if `constant_time`.
@@ -204,7 +213,8 @@ impl Engine {
                 origins.follow(&maps, beside);
             }
             origins.look(&maps, beside, display_cells(&grid));
-            visit(&Frame { number, tally, time, map: maps.shown(), overlay, origins: &origins.shown });
+            let (map, origins, settings) = (maps.shown(), &origins.shown, &self.settings);
+            visit(&Frame { number, tally, time, map, overlay, settings, scan_out: self.scan_out, origins });
         }
         Ok(origins.used)
     }
@@ -224,11 +234,7 @@ impl Frame<'_> {
     pub fn picture(&self) -> Picture {
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let rows = 0..height as u32;
-        let words: Vec<u32> = match self.overlay {
-            Some(overlay) => rows.flat_map(|y| overlay::row(self.map, overlay, y)).collect(),
-            None => rows.flat_map(|y| scan_out::row(self.map, y)).collect(),
-        };
+        let words = self.scan_out.words(self.map, self.overlay, self.settings);
         let colour = self.map.record().colour_format();
         let pixels = words.into_iter().map(|word| colour.to_rgb888(word)).collect();
         Picture { width, height, pixels }
