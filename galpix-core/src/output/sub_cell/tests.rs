@@ -132,7 +132,11 @@ fn compare<F: Format>(map: &Galpixmap<'_, F>, threshold: u32) {
     }
 }
 
-const SHAPES: [(u32, u32, Margin); 7] = [
+/// Around runs of 16 cells too.
+const SHAPES: [(u32, u32, Margin); 10] = [
+    (16, 2, Margin::NONE),
+    (17, 3, Margin { left: 1, right: 0, top: 1, bottom: 0 }),
+    (31, 2, Margin { left: 0, right: 1, top: 0, bottom: 1 }),
     (13, 7, Margin::NONE),
     (1, 1, Margin::NONE),
     (1, 9, Margin::NONE),
