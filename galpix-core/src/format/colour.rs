@@ -180,8 +180,8 @@ impl Colour {
         self.join(|channel| ((channel.of(p) + channel.of(q) + 1) >> 1) << channel.shift)
     }
 
-    /// Returns the mean of colour words by weights whose sum must be [`WEIGHTS`], channel by channel. It is never outside
-    /// of the range of the channel's levels that have a weight, and equals a colour that has all the weight.
+    /// Returns the mean of colour words by weights whose sum must be [`WEIGHTS`], channel by channel. It is never
+    /// outside of the range of the channel's levels that have a weight, and equals a colour that has all the weight.
     ///
     /// *Rounding:* once, to nearest, halves upwards.
     ///

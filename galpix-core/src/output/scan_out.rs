@@ -33,8 +33,8 @@ impl Sampling for Nearest {
 
 /// What is shown over a map: [`Bare`] for nothing, or a reference to an [`Overlay`](crate::overlay::Overlay).
 pub trait Over: Copy {
-    /// Returns the colour words that are shown over `colours`, which are those of row `y` of the display from column `x`
-    /// on.
+    /// Returns the colour words that are shown over `colours`, which are those of row `y` of the display from column
+    /// `x` on.
     fn over(self, colours: impl ExactSizeIterator<Item = u32>, y: u32, x: u32) -> impl ExactSizeIterator<Item = u32>;
 }
 

@@ -1,12 +1,12 @@
 //! Sub-cell scan-out: rows of colour that are resampled by the sub-cell offsets of the galpixels.
 //!
-//! A cell shows the galpixel that is nearest to it. Where exactly that galpixel is, its *offset* says: up to half a cell
-//! from the centre. [`row`](crate::scan_out::row) does not look at it, so that what moves slowly steps from cell to
-//! cell. Here every row of the display is made from three rows of any map, in two steps:
+//! A cell shows the galpixel that is nearest to it. Where exactly that galpixel is, its *offset* says: up to half a
+//! cell from the centre. [`row`](crate::scan_out::row) does not look at it, so that what moves slowly steps from cell
+//! to cell. Here every row of the display is made from three rows of any map, in two steps:
 //!
-//! 1. **Bilinear.** A galpixel right of its centre leaves the left part of its cell to the neighbour on the left. So the
-//!    neighbours across the centre, in x, in y and diagonally, are mixed in by the size of the offset. A neighbour counts
-//!    if it is of the same surface and has moved alike; else the cell itself stands in for it.
+//! 1. **Bilinear.** A galpixel right of its centre leaves the left part of its cell to the neighbour on the left. So
+//!    the neighbours across the centre, in x, in y and diagonally, are mixed in by the size of the offset. A neighbour
+//!    counts if it is of the same surface and has moved alike; else the cell itself stands in for it.
 //! 2. **Silhouettes by coverage.** Where one of two neighbours is nearer by more than a threshold, the nearer surface
 //!    ends half a cell beyond its galpixel. If that is within the farther cell, the nearer colour covers a part of the
 //!    farther cell; if it is within the nearer cell, the farther colour is seen there.
@@ -266,8 +266,8 @@ impl<F: Format> Rows<'_, '_, F> {
         }
     }
 
-    /// Reads a part of a row to the end of a lane: its last cell to the last place but one. `read` makes something of the
-    /// word of a field's upper part and of the one with its spilled bits.
+    /// Reads a part of a row to the end of a lane: its last cell to the last place but one. `read` makes something of
+    /// the word of a field's upper part and of the one with its spilled bits.
     #[inline(always)]
     fn read<T: Copy>(&self, part: &Part, field: Field, lane: &mut Lane<T>, read: impl Fn(u32, u32) -> T) {
         let cells = (part.x - part.before) as usize..(part.x + part.count + part.after) as usize;

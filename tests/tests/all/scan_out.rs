@@ -240,8 +240,8 @@ fn rows_are_the_displays_rows() {
     }
 }
 
-/// A view that is resampled shows the resampled rows: as a whole, in bands of every height, in parts of its rows; and an
-/// overlay keeps every bit over them.
+/// A view that is resampled shows the resampled rows: as a whole, in bands of every height, in parts of its rows. An
+/// overlay over them keeps every bit.
 #[test]
 fn resampled_views_show_the_resampled_rows() {
     let (format, shape) = (dynamic(Layout::FULL, PAPER), Shape::new(37, 6, [2, 1, 1, 3]));
