@@ -187,14 +187,25 @@ impl<F: Format> Rows<'_, '_, F> {
         // Filled in place: arrays that are returned are copied.
         let mut around = Around::new();
         let Around { above, row, below, right } = &mut around;
-        for (lanes, start) in [above, row, below].into_iter().zip(self.starts) {
-            let part = part.of(start);
-            self.read_keys(&part, &mut lanes.keys);
-            self.read_unsigned(&part, record.colour(), &mut lanes.colours);
-            self.read_offsets(&part, record.offset_y(), &mut lanes.down);
-        }
         let [_, start, _] = self.starts;
         self.read_offsets(&part.of(start), record.offset_x(), right);
+        let mut any = right.iter().fold(0, |any, offset| any | offset);
+        for (lanes, start) in [&mut *above, &mut *row, &mut *below].into_iter().zip(self.starts) {
+            self.read_offsets(&part.of(start), record.offset_y(), &mut lanes.down);
+            any |= lanes.down.iter().fold(0, |any, offset| any | offset);
+        }
+        if any == 0 {
+            // Nothing reaches out of its cell.
+            self.read_unsigned(&part.of(start), record.colour(), &mut row.colours);
+            for (to, colour) in run.iter_mut().zip(row.colours.iter().skip(1)) {
+                *to = *colour;
+            }
+            return;
+        }
+        for (lanes, start) in [above, row, below].into_iter().zip(self.starts) {
+            self.read_keys(&part.of(start), &mut lanes.keys);
+            self.read_unsigned(&part.of(start), record.colour(), &mut lanes.colours);
+        }
         let mut inside = [0; RUN];
         self.bilinear(&around, run, &mut inside);
         for (index, (colour, inside)) in run.iter_mut().zip(inside).enumerate() {
