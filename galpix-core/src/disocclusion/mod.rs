@@ -32,6 +32,8 @@ pub use line::cover;
 pub(crate) use line::make_cover;
 pub use spread::spread;
 
+#[cfg(feature = "check")]
+use crate::fast::check::due;
 use crate::format::Format;
 use crate::map::Galpixmap;
 use mark::{Marker, NO_PASS};
@@ -137,10 +139,10 @@ pub fn map<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Rea
 
 pub(crate) fn make<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
     #[cfg(feature = "check")]
-    let expected = check::expected(front, extents.to_vec(), reach);
+    let expected = due(front.grid().cells()).then(|| check::expected(front, extents.to_vec(), reach));
     let tally = make_by_rows(front, extents, reach);
     #[cfg(feature = "check")]
-    assert_eq!((&*extents, tally), (&*expected.0, expected.1), "the disocclusion map by rows");
+    assert!(expected.is_none_or(|made| made == (extents.to_vec(), tally)), "the disocclusion map by rows: {reach:?}");
     tally
 }
 
@@ -170,6 +172,7 @@ mod check {
     use std::vec::Vec;
 
     use super::{Reach, Tally, mark_pairs, spread};
+    use crate::fast::check::due;
     use crate::format::Format;
     use crate::map::Galpixmap;
 
@@ -187,6 +190,9 @@ mod check {
     /// Asserts that a mask holds the cells that the map of extents covers.
     pub(super) fn cover<F: Format>(front: &Galpixmap<'_, F>, mask: &[u32], tally: &Tally, reach: &Reach) {
         let cells = front.grid().cells() as usize;
+        if !due(front.grid().cells()) {
+            return;
+        }
         let (extents, expected) = expected(front, vec![0; cells], reach);
         assert_eq!(*tally, expected, "the counts of the cells that are covered");
         let made = |cell: usize| mask[cell / 32] >> (cell % 32) & 1 != 0;

@@ -112,12 +112,14 @@ fn fill<F: Format, V: OfGalpixel>(
     push_pull: &mut PushPull<'_>,
 ) -> u32 {
     #[cfg(feature = "check")]
-    let expected = check::on_copy(map, |copy| {
-        reference::push_pull(&mut Uncovered::<F, V>::new(copy, inpainting.mask), push_pull.levels(), inpainting)
+    let expected = check::due(map.grid().cells()).then(|| {
+        check::on_copy(map, |copy| {
+            reference::push_pull(&mut Uncovered::<F, V>::new(copy, inpainting.mask), push_pull.levels(), inpainting)
+        })
     });
     let filled = push_pull.fill(&mut Uncovered::<F, V>::new(map, inpainting.mask), inpainting);
     #[cfg(feature = "check")]
-    assert!((check::words(map), filled) == expected, "push-pull of a map: {inpainting:?}");
+    assert!(expected.is_none_or(|made| made == (check::words(map), filled)), "push-pull of a map: {inpainting:?}");
     filled
 }
 
@@ -131,13 +133,15 @@ pub(crate) fn metamers<F: Format>(
     age: u32,
 ) -> Result<u32, SetupError> {
     #[cfg(feature = "check")]
-    let expected = check::on_copy(map, |copy| {
-        let mut scene = Uncovered::<F, Tone>::new(copy, inpainting.mask);
-        metamers_by_reference(&mut scene, inpainting, metamer.recipe(), age)
+    let expected = check::due(map.grid().cells()).then(|| {
+        check::on_copy(map, |copy| {
+            let mut scene = Uncovered::<F, Tone>::new(copy, inpainting.mask);
+            metamers_by_reference(&mut scene, inpainting, metamer.recipe(), age)
+        })
     });
     let filled = metamer.fill(&mut Uncovered::<F, Tone>::new(map, inpainting.mask), inpainting, age)?;
     #[cfg(feature = "check")]
-    assert!((check::words(map), filled) == expected, "metamers in a map: {inpainting:?}");
+    assert!(expected.is_none_or(|made| made == (check::words(map), filled)), "metamers in a map: {inpainting:?}");
     Ok(filled)
 }
 

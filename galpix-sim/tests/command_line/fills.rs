@@ -1,14 +1,9 @@
 //! `galpix fills`.
 
-use std::path::Path;
-
+use galpix_sim::picture::Picture;
 use serde_json::Value;
 
-use crate::{done, entries, folder, json, read, refused};
-
-fn picture(path: &Path) -> image::RgbImage {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
-}
+use crate::{done, entries, folder, json, picture, read, refused};
 
 #[test]
 fn page_values_and_pictures_say_the_same() {
@@ -43,18 +38,18 @@ fn page_values_and_pictures_say_the_same() {
         index["sources"][0]["frames"].as_array().unwrap().iter().zip(source["cells"].as_array().unwrap())
     {
         let at = |name: &str| picture(&out.join(frame[name].as_str().unwrap()));
-        let white = |mask: &image::RgbImage| mask.pixels().filter(|pixel| pixel.0 == [255; 3]).count() as u64;
+        let white = |mask: &Picture| mask.pixels.iter().filter(|&&pixel| pixel == [255; 3]).count() as u64;
         let (truth, mask, all, warped) = (at("truth"), at("mask"), at("mask_all"), at("warped"));
-        assert_eq!(truth.dimensions(), (192, 144));
+        assert_eq!((truth.width, truth.height), (192, 144));
         for of in [frame, cells] {
             assert_eq!(Some(white(&mask)), of["disoccluded"].as_u64());
             assert_eq!(Some(white(&all)), of["missing"].as_u64());
         }
-        assert!(all.enumerate_pixels().all(|(x, y, pixel)| pixel.0 == [0; 3] || warped.get_pixel(x, y).0 == [0; 3]));
+        assert!(all.pixels.iter().zip(&warped.pixels).all(|(&all, &warped)| all == [0; 3] || warped == [0; 3]));
         for fill in frame["fills"].as_array().unwrap() {
             let shown = picture(&out.join(fill["file"].as_str().unwrap()));
-            let outside = all.enumerate_pixels().filter(|(_, _, pixel)| pixel.0 == [0; 3]);
-            let differing = outside.filter(|(x, y, _)| shown.get_pixel(*x, *y) != warped.get_pixel(*x, *y)).count();
+            let pairs = all.pixels.iter().zip(shown.pixels.iter().zip(&warped.pixels));
+            let differing = pairs.filter(|&(&all, (shown, warped))| all == [0; 3] && shown != warped).count();
             // A bullet fill is a galpixel: it may win a cell that one of the update would have had.
             assert!(differing < 60, "{}: {differing} cells differ outside of the mask", fill["name"]);
             listed += 1;

@@ -19,6 +19,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use galpix_sim::picture::Picture;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -42,6 +43,11 @@ fn output(folder: &Path, arguments: &[&str]) -> Output {
 
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).expect("UTF-8")
+}
+
+fn picture(path: &Path) -> Picture {
+    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Picture::from_png(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// Standard output of a call that succeeds.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{done, entries, folder, json, marbles, output, refused, text};
+use crate::{done, entries, folder, json, marbles, output, picture, refused, text};
 
 /// A copy of the marbles whose manifest has `from` replaced by `to`.
 fn altered(folder: &Path, from: &str, to: &str) -> PathBuf {
@@ -56,12 +56,12 @@ fn assert_report(report: &Value, frames: usize) {
     }
 }
 
-fn assert_frames(folder: &Path, frames: u32, size: (u32, u32)) {
+fn assert_frames(folder: &Path, frames: u32, size: (usize, usize)) {
     let expected: BTreeSet<String> = (0..=frames).map(|frame| format!("{frame:04}.png")).collect();
     assert_eq!(entries(folder), expected);
     for name in expected {
-        let picture = image::open(folder.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!((picture.width(), picture.height()), size, "{name}");
+        let picture = picture(&folder.join(&name));
+        assert_eq!((picture.width, picture.height), size, "{name}");
     }
 }
 

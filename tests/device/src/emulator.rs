@@ -113,11 +113,9 @@ impl Emulator {
             "execute": "screendump",
             "arguments": { "filename": file.display().to_string(), "format": "png" }
         }))?;
-        let image = image::open(&file)
-            .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?
-            .to_rgb8();
-        let (width, height) = (image.width() as usize, image.height() as usize);
-        let screen = Picture { width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() };
+        let screen = std::fs::read(&file)
+            .and_then(|bytes| Picture::from_png(&bytes))
+            .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?;
         self.board.pixels(&screen)
     }
 

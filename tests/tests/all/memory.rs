@@ -274,7 +274,7 @@ fn every_refusal_says_what_is_wrong_and_how_to_mend_it() {
         sentences.push((error.to_string(), detail));
     }
     for (error, detail) in [
-        (SetupError::TooShort { plane: "edge map", need: 12, have: 7 }, "edge map needs 12 words and 7 were lent"),
+        (SetupError::TooShort { plane: "edge map", need: 12, have: 7 }, "edge map needs 12 words and 7 were provided"),
         (SetupError::Size { width: 0, height: 9 }, "0x9"),
         (SetupError::GridsDiffer, "same one"),
         (SetupError::NoTag, "tag bits"),

@@ -29,8 +29,8 @@ fn png(width: u32, height: u32, colour: ColorType, depth: BitDepth, bytes: &[u8]
 /// A JPEG of the best quality.
 pub fn jpeg(width: u32, height: u32, rgb: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
-    let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, 100);
-    encoder.encode(rgb, width, height, image::ExtendedColorType::Rgb8).unwrap();
+    let (width, height) = (width.try_into().unwrap(), height.try_into().unwrap());
+    jpeg_encoder::Encoder::new(&mut file, 100).encode(rgb, width, height, jpeg_encoder::ColorType::Rgb).unwrap();
     file
 }
 
