@@ -23,7 +23,7 @@ use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
 /// Cells that are looked at once.
-const LOOK: u32 = 32;
+const LOOK: usize = 32;
 
 /// What of a galpixel is filled in.
 pub trait OfGalpixel: Stored {
@@ -208,17 +208,16 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
     pub(super) fn each_hole(&mut self, mut hole: impl FnMut(&mut Self, u32, u32, u32)) {
         let grid = *self.map.grid();
         for (y, &row) in (0..).zip(grid.starts()) {
-            let mut x = 0;
-            while x < grid.width() {
-                let run = (grid.width() - x).min(LOOK);
-                if self.map.any_just_unobscured(row + x, run) {
-                    for x in x..x + run {
-                        if self.is_to_be_filled(row + x) {
-                            hole(self, x, y, row + x);
-                        }
+            let end = row + grid.width();
+            let mut cell = row + self.map.cells_before_just_unobscured::<LOOK>(row..end);
+            while cell < end {
+                let next = (cell + LOOK as u32).min(end);
+                for cell in cell..next {
+                    if self.is_to_be_filled(cell) {
+                        hole(self, cell - row, y, cell);
                     }
                 }
-                x += run;
+                cell = next + self.map.cells_before_just_unobscured::<LOOK>(next..end);
             }
         }
     }
