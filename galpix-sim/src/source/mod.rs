@@ -1,6 +1,7 @@
 //! Sources of updates: built-in scenes with exact truth, and captures.
 
 pub mod capture;
+pub mod ddoc;
 pub mod fit;
 pub mod hidden;
 pub mod scene;

@@ -1,11 +1,12 @@
 //! The depth discontinuity occlusion camera on whole worlds: what it is for, and that what it stores is where it says.
 
+use galpix_sim::source::ddoc::distortion;
+use galpix_sim::source::ddoc::hidden::{HiddenSample, hidden};
 use galpix_sim::source::scene;
-use galpix_sim::study::ddoc::hidden::{HiddenSample, hidden};
 use galpix_sim::study::ddoc::missing::{TOLERANCE, desired, mask};
 use galpix_sim::study::ddoc::view::View;
 use galpix_sim::study::ddoc::warp::warp;
-use galpix_sim::study::ddoc::{Request, distortion, open, reference, study};
+use galpix_sim::study::ddoc::{Request, open, reference, study};
 
 /// Figure 9 of the paper: what the frames of the DDOC image lack is 7 to 13 % of what those of the depth image lack.
 #[test]

@@ -3,8 +3,8 @@
 use super::{Kind, Layer};
 use crate::engine::EngineError;
 use crate::source::Source;
+use crate::source::ddoc::{self, distortion};
 use crate::source::scene::{self, Peel, Scene};
-use crate::study::ddoc::{self, distortion};
 use crate::update::{Known, Sample, Update};
 
 /// What a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing of this

@@ -1,10 +1,10 @@
 //! What a frame lacks: samples of the truth that are not in it, over views around the reference eye (section 6).
 
-use super::raster::Raster;
 use super::reference;
 use super::view::{Place, View};
 use super::warp::{Joint, warp};
 use super::world::World;
+use crate::source::ddoc::raster::Raster;
 use crate::study::ddoc::reference::Reference;
 use rayon::prelude::*;
 

@@ -1,23 +1,18 @@
 //! The depth discontinuity occlusion camera on worlds of triangles: reference images, frames warped from them, and what
-//! those frames lack. The distortion is `galpix_core::ddoc`'s; what is drawn with it is drawn here.
+//! those frames lack. The distortion map is that of [`crate::source::ddoc`].
 //!
 //! ```text
 //! scene, file ─▶ world ─▶ reference (plain, DDOC) ─▶ warp ─▶ missing ─▶ report, pictures, page
 //!                            distortion ─┘
-//! scene ─▶ hidden (the DDOC image as galpixels)
 //! ```
 
 mod columns;
-pub mod distortion;
-pub mod hidden;
 pub mod import;
 pub mod missing;
 mod page;
 pub mod pictures;
-pub mod raster;
 pub mod reference;
 pub mod report;
-pub mod sheet;
 pub mod view;
 pub mod warp;
 pub mod world;
@@ -40,6 +35,7 @@ use self::world::World;
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
 use crate::output::column::Table;
 use crate::output::save::file_name;
+use crate::source::ddoc::distortion;
 use crate::source::scene;
 
 /// The sides of reference images that are possible, pixels.

@@ -1,13 +1,13 @@
 //! Pictures of a study: both reference images, the distortion map, and a pair of frames with what they lack in white.
 
 use super::missing::{TOLERANCE, mask};
-use super::raster::Raster;
 use super::reference::{self, Ddoc, Reference};
 use super::view::View;
 use super::warp::{Joint, warp};
 use super::world::World;
 use crate::output::film::magnified;
 use crate::picture::Picture;
+use crate::source::ddoc::raster::Raster;
 
 /// Columns and rows of the magnified part of a frame.
 const PART: usize = 44;

@@ -5,10 +5,10 @@ use std::time::Instant;
 use galpix_core::SetupError;
 use galpix_core::ddoc::{DistortionMap, Settings, Tally};
 
-use super::distortion::{self, Memory, depth_word};
-use super::raster::{Pin, Raster};
 use super::view::{Corner, View};
 use super::world::World;
+use crate::source::ddoc::distortion::{self, Memory, depth_word};
+use crate::source::ddoc::raster::{Pin, Raster};
 
 /// An image with depth, colour, and for each sample by how much it was moved.
 #[derive(Clone, Debug)]

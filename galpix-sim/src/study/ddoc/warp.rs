@@ -1,8 +1,8 @@
 //! A reference image from another view (section 5): its samples as a mesh, cut where the depth is discontinuous.
 
-use super::raster::{Pin, Raster};
 use super::reference::Reference;
 use super::view::View;
+use crate::source::ddoc::raster::{Pin, Raster};
 
 /// What decides which neighbouring samples are one surface.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! What is looked at: triangles, from a built-in scene, a world of its own, or a file.
 
-use super::sheet::{self, Lattice, Node};
 use super::view::{Corner, View};
+use crate::source::ddoc::sheet::{self, Lattice, Node};
 use crate::source::scene::Scene;
 
 /// A world of triangles before the reference eye.
