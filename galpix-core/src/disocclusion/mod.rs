@@ -3,7 +3,7 @@
 //! Where a near surface leaves a far one, it uncovers what was hidden behind it. Before an update is shown, the map
 //! says of each of its cells whether that can happen within the frames until the next update, and how far what is
 //! uncovered extends from the cell. The hidden samples of all other cells need not be carried. After Algorithms 1 and 2
-//! of the supplement to the paper on depth layers; `docs/disocclusion.md` says how they were read, and proves the
+//! of the supplement to the paper on depth layers; `docs/notes/disocclusion.md` says how they were read, and proves the
 //! guarantee below.
 //!
 //! 1. [`mark()`] resolves each pair of neighbours: where one gets away from the other, the nearer one leaves, and

@@ -37,7 +37,7 @@ impl<'p, F: Format> Layer<'p, F> {
     /// composite masks, whatever these hold.
     ///
     /// With a winner map it reports where its galpixels come from. With an edge map too it fills its own bullet holes,
-    /// in the fill modes that tell surfaces apart.
+    /// in the fill modes that separate surfaces.
     ///
     /// *Errors:* grids that differ, scratch memory that is neither empty nor long enough, too few words in
     /// `composited`.
