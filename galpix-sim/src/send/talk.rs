@@ -35,12 +35,12 @@ impl<'l> Talk<'l> {
         Self { line, to, decoder: Decoder::new(), waiting: Vec::new(), sent: 0, unanswered: 0 }
     }
 
-    /// What the line is called in messages.
+    /// Returns what the line is called in messages.
     pub const fn to(&self) -> &'l str {
         self.to
     }
 
-    /// Bytes sent.
+    /// Returns the bytes sent.
     pub const fn sent(&self) -> u64 {
         self.sent
     }
@@ -72,7 +72,7 @@ impl<'l> Talk<'l> {
         Ok(())
     }
 
-    /// Asks how the device is, again and again until it answers. Nothing where nobody can answer.
+    /// Requests the device's status until it answers; `None` if nothing can answer.
     pub fn ask(&mut self) -> Result<Option<Status>, SendError> {
         if self.line.answers() {
             // An answer to an earlier question must not be taken for the one to this.

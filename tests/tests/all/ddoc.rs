@@ -1,4 +1,4 @@
-//! The depth discontinuity occlusion camera on whole worlds: what it is for, and that what it stores is where it says.
+//! The depth discontinuity occlusion camera on whole worlds: what it is for, and that its samples are where it claims.
 
 use galpix_sim::source::ddoc::distortion;
 use galpix_sim::source::ddoc::hidden::{HiddenSample, hidden};
@@ -79,7 +79,7 @@ fn galpixels_of_a_scene_know_where_they_are() {
         assert!(behind.len() > 200 && behind.len() < samples.len() / 3, "{name}: {}", behind.len());
         let mut moved = 0;
         for sample in &samples {
-            let [x, y] = [sample.place[0] - update.wings.left as f64, sample.place[1] - update.wings.top as f64];
+            let [x, y] = [sample.place[0] - update.margin.left as f64, sample.place[1] - update.margin.top as f64];
             let seen = scene.sample(x, y, 0.0);
             if sample.hidden {
                 assert!(sample.sample.depth >= seen.depth, "{name}: {sample:?} before {seen:?}");

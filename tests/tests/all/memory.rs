@@ -1,4 +1,4 @@
-//! The memory that a budget promises is the memory that is lent, and every setup that cannot be is refused with a
+//! The memory that a budget promises is the memory that is needed, and every setup that cannot be is refused with a
 //! sentence.
 
 use fixed::types::I32F32;
@@ -157,7 +157,7 @@ fn stored_is_loaded(layout: Layout, bits: Bits) {
                 ("velocity", back.velocity[i], velocity[i], component.velocity_frac),
                 ("acceleration", back.acceleration[i], acceleration[i], component.acceleration_frac),
             ] {
-                // Beside the budget's last bit there is the last bit of the number that was handed over.
+                // Off by half of the budget's last bit, and by the last bit of the number handed over.
                 let most = unit(frac + 1) + 2.0 * unit(32) * scale;
                 let back = back.to_num::<f64>() * scale;
                 assert!((back - written).abs() <= most, "{name} {i} of {bits:?}: {written} became {back}");
@@ -235,7 +235,7 @@ fn controllers_that_cannot_work_are_refused() {
     assert_eq!(stages::words(&grid), 2);
 }
 
-/// Every refusal is one sentence: what is wrong, its numbers, and after a colon how to mend it.
+/// Every refusal is one sentence: what is wrong, its numbers, and after a colon how to correct it.
 #[test]
 fn every_refusal_says_what_is_wrong_and_how_to_mend_it() {
     let base = Demand { extent: 1024, recog: 8, prop: 16 };

@@ -27,7 +27,7 @@ pub(crate) use page::line_key;
 pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
 pub use report::html;
 
-/// Everything that a report says. All text is plain; it is escaped where it meets HTML.
+/// The content of a report. All text is plain; it is escaped where it meets HTML.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Heading and window title.
@@ -36,7 +36,7 @@ pub struct Report {
     pub intro: Vec<String>,
     /// Names and values about the run: version, machine, options.
     pub facts: Vec<Fact>,
-    /// One a scene, in the order in which they are told.
+    /// One per scene, in order.
     pub stories: Vec<Story>,
 }
 
@@ -55,7 +55,7 @@ pub struct Story {
     pub budget_line: String,
     /// Name of the rounding.
     pub rounding: String,
-    /// Name of the highest rung of the fill ladder.
+    /// Name of the fill mode.
     pub fill: String,
     /// What the budget promises, where that was computed.
     pub certificate: Option<CertificateLine>,
@@ -101,7 +101,7 @@ pub struct Row {
     pub truth_error_px: Option<f64>,
     /// Cells that no galpixel reached.
     pub holes: u64,
-    /// Holes that a rung of the fill ladder filled.
+    /// Holes that the fill mode filled.
     pub filled: u64,
     /// Galpixels that left the map.
     pub lost: u64,

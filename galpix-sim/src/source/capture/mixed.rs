@@ -65,11 +65,11 @@ fn between(mixed: [f64; 3], own: [f64; 3], other: [f64; 3]) -> bool {
         return false;
     }
     let part = (off[0] * across[0] + off[1] * across[1]) / squared;
-    let beside = (off[0] * across[1] - off[1] * across[0]).abs() / squared;
-    part > 0.0 && part <= 1.0 + OFF_LINE && beside <= OFF_LINE
+    let distance = (off[0] * across[1] - off[1] * across[0]).abs() / squared;
+    part > 0.0 && part <= 1.0 + OFF_LINE && distance <= OFF_LINE
 }
 
-/// The cells at most `reach` columns and rows away, inside the picture.
+/// Returns the cells at most `reach` columns and rows away, inside the picture.
 fn around(size: Size, x: usize, y: usize, reach: usize) -> impl Iterator<Item = usize> {
     let columns = x.saturating_sub(reach)..(x + reach + 1).min(size.width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(size.height);

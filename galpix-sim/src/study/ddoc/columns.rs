@@ -14,7 +14,7 @@ fn percent(share: Option<f64>) -> Value {
     share.map(|share| 100.0 * share).into()
 }
 
-/// A name that is cut where it is too long.
+/// Returns a name that is cut where it is too long.
 fn cut(name: &str) -> Value {
     if name.chars().count() <= NAME {
         return name.into();

@@ -28,8 +28,8 @@ pub struct Missing {
     pub strict: Vec<u32>,
 }
 
-/// Where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds the same
-/// depth.
+/// Returns where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds
+/// the same depth.
 #[must_use]
 pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -> Vec<bool> {
     let (width, height) = (truth.width, truth.height);
@@ -45,7 +45,7 @@ pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -
     (0..width * height).map(missing).collect()
 }
 
-/// The faces', edges' and corners' middles of a cube around the reference eye: 26 places.
+/// Returns the faces', edges' and corners' middles of a cube around the reference eye: 26 places.
 #[must_use]
 pub fn cube(half_side: f64) -> Vec<Place> {
     let coordinates = [-half_side, 0.0, half_side];
@@ -54,7 +54,7 @@ pub fn cube(half_side: f64) -> Vec<Place> {
     places.filter(|place| *place != [0.0; 3]).collect()
 }
 
-/// The view from a place: 45 degrees wide, along z, with pixels about as large as the reference image's.
+/// Returns the view from a place: 45 degrees wide, along z, with pixels about as large as the reference image's.
 #[must_use]
 pub fn desired(eye: Place, size: usize) -> View {
     // tan 22.5 degrees; three quarters as high.
@@ -62,7 +62,7 @@ pub fn desired(eye: Place, size: usize) -> View {
     View::new(eye, width, width * 3 / 4, 45.0)
 }
 
-/// What frames lack that are made from each of `references`, view by view.
+/// Returns what frames lack that are made from each of `references`, view by view.
 #[must_use]
 pub fn count(world: &World, size: usize, references: &[(&Reference, Joint)]) -> Vec<Missing> {
     cube(world.half_side)

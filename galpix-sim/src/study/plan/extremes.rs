@@ -57,7 +57,7 @@ impl Reach {
     }
 }
 
-/// The largest of `|v t + a t²/2|` for t in 0 to n: at the end, or where it turns round.
+/// Returns the largest of `|v t + a t²/2|` for t in 0 to n: at the end, or where it turns round.
 fn farthest(v: f64, a: f64, n: f64) -> f64 {
     let at = |t: f64| (v * t + a * t * t / 2.0).abs();
     let turn = -v / a;
