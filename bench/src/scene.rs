@@ -15,7 +15,7 @@ pub enum Motion {
     Still,
     /// Rigid things and a background.
     Scene,
-    /// Every cell by its own velocity, up to two cells a frame in x and y: the worst case.
+    /// Every cell by its own velocity, up to two cells per frame in x and y: the worst case.
     Random,
 }
 

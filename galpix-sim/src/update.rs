@@ -22,17 +22,17 @@ pub enum Known {
 /// One rendered sample and its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Sample {
-    /// sRGB, 8 bits a channel.
+    /// sRGB, 8 bits per channel.
     pub colour: [u8; 3],
     /// Whether the motion may be believed.
     pub known: Known,
     /// Normalised depth, see the module's text.
     pub depth: f64,
-    /// Velocity in x and y (pixels a frame) and of the depth (normalised depth a frame).
+    /// Velocity in x and y (pixels per frame) and of the depth (normalised depth a frame).
     pub velocity: [f64; 3],
     /// Acceleration in x and y (pixels a frame²) and of the depth (normalised depth a frame²).
     pub acceleration: [f64; 3],
-    /// Change of luminosity, in 8-bit code values a frame (shading inertia).
+    /// Change of luminosity, in 8-bit code values per frame (shading inertia).
     pub luminosity_rate: f64,
     /// Object tag; 0 where there are no objects.
     pub tag: u8,

@@ -8,7 +8,7 @@
 //!
 //! In every panel `.` is a hole. Colour: a letter, upper case for a galpixel, lower case for debris. Class: `#`
 //! galpixel, `!` just unobscured, `~` debris. Depth: sixteenths of the range, `*` for the far end. Motion: the velocity
-//! in cells a frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the
+//! in cells per frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the
 //! display shows, be there a galpixel or not, `_` for black.
 
 use std::fmt;

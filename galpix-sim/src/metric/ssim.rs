@@ -9,7 +9,7 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = (0.01 * 255.0) * (0.01 * 255.0);
 const C2: f64 = (0.03 * 255.0) * (0.03 * 255.0);
 
-/// One number a cell.
+/// One number per cell.
 struct Plane {
     width: usize,
     height: usize,

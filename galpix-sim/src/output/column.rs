@@ -201,7 +201,7 @@ impl<R> Column<R> {
     }
 }
 
-/// Returns comma-separated values: a line of identifiers and a line a row, quoted where a cell needs it.
+/// Returns comma-separated values: a line of identifiers and a line per row, quoted where a cell needs it.
 ///
 /// *Errors:* those of the writer; none are known.
 pub fn csv<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> csv::Result<String> {

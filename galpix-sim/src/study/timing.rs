@@ -41,7 +41,7 @@ pub trait Contender {
 pub struct Time {
     /// Microseconds a frame, the median.
     pub frame_us: f64,
-    /// Nanoseconds a cell of the map.
+    /// Nanoseconds per cell of the map.
     pub ns_per_cell: f64,
     /// Ratio to a copy of as many bytes as the map has, the median.
     pub x_copy: f64,

@@ -43,7 +43,7 @@ fn page_values_and_document_say_the_same() {
     assert!(document["command"].as_str().unwrap().starts_with("galpix error crossing --quick"));
     assert_eq!(document["version"], env!("CARGO_PKG_VERSION"));
 
-    // Comma-separated values: a line a point, and sample-and-hold.
+    // Comma-separated values: a line per point, and sample-and-hold.
     let mut lines = csv.lines();
     let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();

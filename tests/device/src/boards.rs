@@ -76,7 +76,7 @@ impl Board {
         firmware.join("target").join(target).join("release").join(format!("{}{}", self.name(), filling.suffix()))
     }
 
-    /// Returns the panel's pixels on the emulated screen, with 8 bits a channel as [`Self::shown`] makes them.
+    /// Returns the panel's pixels on the emulated screen, with 8 bits per channel as [`Self::shown`] makes them.
     ///
     /// The OLED is drawn four times as large; each pixel's block must be of one colour. The LCD's pixels are as they
     /// are.

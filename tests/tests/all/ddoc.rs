@@ -97,7 +97,7 @@ fn galpixels_of_a_scene_know_where_they_are() {
             moved += usize::from(by != [0, 0]);
         }
         assert!(moved > behind.len() / 2, "{name}: {moved}");
-        // One a cell, row by row.
+        // One per cell, row by row.
         assert!(samples.windows(2).all(|pair| (pair[0].cell[1], pair[0].cell[0]) < (pair[1].cell[1], pair[1].cell[0])));
     }
 }

@@ -75,7 +75,7 @@ fn every_galpixel_of_a_scene_arrives() {
     let (report, device) = over_tcp(&scene_source("drift"), &ONE, Device::new::<Oled>(), no_noise);
     let report = report.unwrap();
     assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
-    // 128 galpixels a row, 56 in a frame at most; the device's counter stood at 1003 at the request.
+    // 128 galpixels per row, 56 in a frame at most; the device's counter stood at 1003 at the request.
     assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 6 * 8));
     assert_eq!(report.updates.len(), 1);
     assert_eq!((report.updates[0].stamp, report.updates[0].time, report.updates[0].galpixels), (1003, 0, 8192));

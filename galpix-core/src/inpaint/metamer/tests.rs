@@ -280,7 +280,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn noise_moves_with_the_surface_and_not_with_the_screen() {
-    // A picture that moves by 3 cells a frame, and with it a hole; the same area some frames later.
+    // A picture that moves by 3 cells per frame, and with it a hole; the same area some frames later.
     let seen = |age: i32, motion: i32| {
         let mut plate = Plate::new(192, 96, |x, y| gravel(x - 3 * age, y))
             .with_holes(|x, y| (40..72).contains(&(x - 3 * age)) && (32..64).contains(&y));

@@ -12,9 +12,9 @@ const TRAINING_PIXELS: usize = 200_000;
 
 /// All frames of a film as raw PNG samples.
 pub struct Coded {
-    /// Bytes a pixel: 3 (red, green, blue) or 1 (index).
+    /// Bytes per pixel: 3 (red, green, blue) or 1 (index).
     pub depth: usize,
-    /// The frames, row-major, `depth` bytes a pixel.
+    /// The frames, row-major, `depth` bytes per pixel.
     pub frames: Vec<Vec<u8>>,
     /// The code that stands for "as in the frame before" and that no frame uses; absent if every 24-bit colour occurs.
     pub clear: Option<Vec<u8>>,

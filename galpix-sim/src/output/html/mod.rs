@@ -4,7 +4,7 @@
 //! without a script; a small one adds play, pause and stepping to the films.
 //!
 //! ```text
-//! Report ─▶ report (page: head, facts) ─▶ overview (one line a scene)
+//! Report ─▶ report (page: head, facts) ─▶ overview (one line per scene)
 //!                     └─▶ story (film, certificate, table) ─▶ figures (which lines) ─▶ plot (SVG)
 //! ```
 
@@ -61,7 +61,7 @@ pub struct Story {
     pub certificate: Option<CertificateLine>,
     /// An animated PNG of the panels truth, sample-and-hold, galpix, difference; empty if there is none.
     pub film_apng: Vec<u8>,
-    /// One a frame, frames ascending.
+    /// One per frame, frames ascending.
     pub rows: Vec<Row>,
     /// Remarks, one sentence or two each.
     pub notes: Vec<String>,
@@ -113,7 +113,7 @@ pub struct Row {
     pub bullets: u64,
     /// Just-unobscured cells filled.
     pub unobscured: u64,
-    /// Time of the frame, nanoseconds a galpixel.
+    /// Time of the frame, nanoseconds per galpixel.
     pub ns_per_galpixel: Option<f64>,
 }
 

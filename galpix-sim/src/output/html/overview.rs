@@ -1,4 +1,4 @@
-//! The table at the top: one line a scene.
+//! The table at the top: one line per scene.
 
 use maud::{Markup, html};
 

@@ -88,7 +88,7 @@ pub(super) enum Depth {
 #[serde(deny_unknown_fields)]
 pub(super) struct Nothing {}
 
-/// A map of one number a pixel.
+/// A map of one number per pixel.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {

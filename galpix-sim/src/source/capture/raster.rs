@@ -1,4 +1,4 @@
-//! Maps of one number a pixel and flows of two, whatever file they are in.
+//! Maps of one number per pixel and flows of two, whatever file they are in.
 
 use super::error::CaptureError;
 use super::exr_planes::Planes;

@@ -24,7 +24,7 @@ pub fn depth_word(nearness: f64) -> u32 {
 }
 
 impl Memory {
-    /// Returns the distortion map of a picture of `width` columns with these depths, one a pixel.
+    /// Returns the distortion map of a picture of `width` columns with these depths, one per pixel.
     ///
     /// *Errors:* a picture without a pixel, or with more than a map can have.
     pub fn map(

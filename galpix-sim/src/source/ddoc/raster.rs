@@ -11,7 +11,7 @@ pub struct Pin<const N: usize> {
     pub carried: [f32; N],
 }
 
-/// A picture with depth, and `N` numbers a pixel.
+/// A picture with depth, and `N` numbers per pixel.
 #[derive(Clone, Debug)]
 pub struct Raster<const N: usize> {
     /// Columns.

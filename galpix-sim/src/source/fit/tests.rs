@@ -44,7 +44,7 @@ fn after<P: Panel>(galpixels: &[Galpixel], frames: u32, mut look: impl FnMut([us
 
 #[test]
 fn the_source_covers_the_panel_around_its_centre() {
-    // Wider than the panel: columns are cropped, 1.5 pixels a cell in both directions.
+    // Wider than the panel: columns are cropped, 1.5 pixels per cell in both directions.
     let wide = Fit::new([192, 96], [64, 64]).unwrap();
     assert_eq!(wide.scale(), 1.5);
     assert_eq!(wide.centre(0, 0), [95.5 - 31.5 * 1.5, 47.5 - 31.5 * 1.5]);
@@ -53,7 +53,7 @@ fn the_source_covers_the_panel_around_its_centre() {
     assert_eq!(wide.nearest(63, 63), [143, 95]);
     let same = Fit::new([7, 5], [7, 5]).unwrap();
     assert_eq!((same.centre(3, 4), same.nearest(3, 4)), ([3.0, 4.0], [3, 4]));
-    // Two pixels a cell: the centre lies between two of them.
+    // Two pixels per cell: the centre lies between two of them.
     let half = Fit::new([256, 128], [128, 64]).unwrap();
     assert_eq!((half.centre(5, 6), half.nearest(5, 6)), ([10.5, 12.5], [10, 12]));
     assert_eq!(Fit::new([0, 5], [7, 5]), None);

@@ -35,7 +35,7 @@ impl Scene for Disc {
     }
 }
 
-/// Pixels; the rim runs at 2.4 pixels a frame.
+/// Pixels; the rim runs at 2.4 pixels per frame.
 const RADIUS: f64 = 61.0;
 
 fn table(u: f64, v: f64) -> Rgb {

@@ -1,4 +1,4 @@
-//! A poster that drifts by small fractions of a pixel a frame.
+//! A poster that drifts by small fractions of a pixel per frame.
 
 use super::Scene;
 use super::jet::Path;

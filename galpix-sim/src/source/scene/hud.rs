@@ -189,7 +189,7 @@ fn instruments(x: usize, y: usize) -> Option<[u8; 3]> {
     number(i - 18, j - 8, [1, 0, 9, 4, 7]).or_else(|| number(i - 18, j - 128, [3, 6, 5, 2, 8]))
 }
 
-/// Digits of two pixels a unit, four units apart, in a black box.
+/// Digits of two pixels per unit, four units apart, in a black box.
 fn number(x: i32, y: i32, digits: [usize; 5]) -> Option<[u8; 3]> {
     if !(-2..40).contains(&x) || !(-2..12).contains(&y) {
         return None;

@@ -134,8 +134,8 @@ fn colour(surface: &dyn Surface, hit: &Hit, t: f64) -> Rgb {
     surface.colour(hit.point).map(|channel| channel + gained)
 }
 
-/// Returns the update that a renderer would deliver at time `t`: one point sample a cell, margin included. Cell (i, j)
-/// of the map is at the display position (i - `margin.left`, j - `margin.top`).
+/// Returns the update that a renderer would deliver at time `t`: one point sample per cell, margin included. Cell (i,
+/// j) of the map is at the display position (i - `margin.left`, j - `margin.top`).
 #[must_use]
 pub fn update(scene: &dyn Scene, t: f64) -> Update {
     let margin = scene.margin();

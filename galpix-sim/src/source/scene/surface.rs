@@ -33,7 +33,7 @@ pub trait Surface: Sync {
     /// Returns the colour of `point` at the update, t = 0.
     fn colour(&self, point: Point) -> Rgb;
 
-    /// Change of the luminosity of `point`: code values a frame, added to each of the three channels.
+    /// Change of the luminosity of `point`: code values per frame, added to each of the three channels.
     fn luminosity_rate(&self, _point: Point) -> f64 {
         0.0
     }
@@ -63,7 +63,7 @@ pub struct Card {
     pub shape: Shape,
     /// Colour, in pixels from the origin.
     pub paint: Paint,
-    /// Change of luminosity (code values a frame), in pixels from the origin.
+    /// Change of luminosity (code values per frame), in pixels from the origin.
     pub rate: fn(f64, f64) -> f64,
 }
 

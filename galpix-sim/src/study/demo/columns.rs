@@ -1,4 +1,4 @@
-//! The columns of the table, a line a scene: means over the frames whose truth is known, and the worst position error
+//! The columns of the table, a line per scene: means over the frames whose truth is known, and the worst position error
 //! of all frames.
 
 use super::SceneReport;

@@ -1,4 +1,4 @@
-//! The columns of the points: a line a point, and in the CSV one for sample-and-hold of each source.
+//! The columns of the points: a line per point, and in the CSV one for sample-and-hold of each source.
 
 use super::frames::Summary;
 use super::report::{Point, Scheme, SourceReport};

@@ -73,7 +73,7 @@ pub struct Fronts {
     pub position: Vec<usize>,
     /// Compile-time form against FLIP.
     pub picture: Vec<usize>,
-    /// Bytes a galpixel against the worst position error.
+    /// Bytes per galpixel against the worst position error.
     pub bytes: Vec<usize>,
 }
 

@@ -50,7 +50,7 @@ impl Contender for Layered<'_> {
     }
 }
 
-/// Returns the times of a job, one a strategy.
+/// Returns the times of a job, one per strategy.
 ///
 /// *Errors:* a map that does not fit, a source that has not what a strategy hands over.
 pub fn of(job: &Job<'_>, strategies: &[Strategy]) -> Result<Vec<StrategyTime>, ExperimentError> {

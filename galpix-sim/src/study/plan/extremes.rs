@@ -7,7 +7,7 @@ use crate::update::{Known, Update};
 /// Of one axis of the plane, over all samples whose motion is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Reach {
-    /// The largest speed in any frame of the plan, in pixels a frame.
+    /// The largest speed in any frame of the plan, in pixels per frame.
     pub speed: f64,
     /// The largest acceleration, in pixels a frame².
     pub acceleration: f64,

@@ -154,7 +154,7 @@ fn axis(
     Ok(Axis { left_out_px, arithmetic_px: certificate.total_px, component })
 }
 
-/// Returns integer bits, sign included, that hold values of this size with `room` pixels a frame to spare.
+/// Returns integer bits, sign included, that hold values of this size with `room` pixels per frame to spare.
 fn integer_bits(value: f64, room: f64) -> u32 {
     let needed = (value + room).log2().ceil().max(0.0) as u32 + 1;
     needed.min(WIDEST_FIELD)

@@ -38,7 +38,7 @@ fn moving(x: u32, y: u32, velocity: [f64; 2], acceleration: [f64; 2]) -> Galpixe
     }
 }
 
-/// The largest velocity of the budget, in cells a frame.
+/// The largest velocity of the budget, in cells per frame.
 fn fastest(setting: &Setting) -> f64 {
     0.5f64.powi(setting.bits.x.velocity_frac as i32) * setting.ranges(0).velocity_top as f64
 }
