@@ -28,9 +28,9 @@ pub struct Sample {
     pub known: Known,
     /// Normalised depth, see the module's text.
     pub depth: f64,
-    /// Velocity in x and y (pixels per frame) and of the depth (normalised depth a frame).
+    /// Velocity in x and y (pixels per frame) and of the depth (normalised depth per frame).
     pub velocity: [f64; 3],
-    /// Acceleration in x and y (pixels a frame²) and of the depth (normalised depth a frame²).
+    /// Acceleration in x and y (pixels per frame²) and of the depth (normalised depth per frame²).
     pub acceleration: [f64; 3],
     /// Change of luminosity, in 8-bit code values per frame (shading inertia).
     pub luminosity_rate: f64,

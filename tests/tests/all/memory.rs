@@ -138,7 +138,7 @@ fn stored_is_loaded(layout: Layout, bits: Bits) {
     let range = f64::from(1u32 << bits.depth_int);
     let components = [bits.x, bits.y, bits.z];
     for n in -20..=20 {
-        // In cells per frame, or bins of depth a frame; the depth is handed over as a part of its range.
+        // In cells per frame, or bins of depth per frame; the depth is handed over as a part of its range.
         let velocity = components.map(|component| f64::from(n) * 0.77 * unit(component.velocity_frac));
         let acceleration = components.map(|component| f64::from(n) * 0.61 * unit(component.acceleration_frac));
         let handed = |[x, y, z]: [f64; 3]| [x, y, z / range].map(I32F32::from_num);

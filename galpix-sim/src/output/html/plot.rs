@@ -8,7 +8,7 @@ use plotters::prelude::*;
 
 const WIDTH: u32 = 380;
 const HEIGHT: u32 = 236;
-/// Above this many points per line carries no dots.
+/// Above this many points a line carries no dots.
 const MOST_DOTS: usize = 40;
 /// Powers of ten that a logarithmic axis spans at most.
 const MOST_DECADES: i32 = 8;

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 /// Two samples are the same if their inverse distances differ by no more than this share.
 const SAME: f32 = 0.03;
 
-/// How far from its own pixel per sample of the truth may be in a frame, pixels: what is lost there is not the sample
+/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample
 /// but a part of an outline, which no image of samples has more exactly.
 pub const TOLERANCE: usize = 1;
 

@@ -1,4 +1,4 @@
-//! What is looked at: triangles, from a built-in scene, a world of its own, or a file.
+//! Worlds: triangles from a built-in scene, a made-up world, or a file.
 
 use super::view::{Corner, View};
 use crate::source::ddoc::sheet::{self, Lattice, Node};

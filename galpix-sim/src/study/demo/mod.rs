@@ -1,4 +1,4 @@
-//! The demonstration: all built-in scenes side by side, each as a film, in plots, and as a line of a table.
+//! The demonstration: all built-in scenes, each as a film, in plots, and as a line of a table.
 
 mod columns;
 

@@ -3,9 +3,9 @@
 //! A shown galpixel is away from its true place by a sum of steps: true motion → exact second-order path (*Taylor*:
 //! what second order cannot know) → exact path of the fields kept (*left out*) → the path of what was stored
 //! (*quantisation*) → where the engine is (*drift*; for galpixels that a range stopped: *saturation*) → the cell that
-//! shows it (*snap*). Of each step the mean over the galpixels is told, of each galpixel the worse of x and y; since
-//! steps may cancel, they add up to at least the error as a whole. What nothing reached is no place but a hole: holes
-//! are told in the squared error of the picture.
+//! shows it (*snap*). For each step the mean over the galpixels is
+//! reported, and of each galpixel the larger of x and y; steps may cancel, so they add up to at least the whole error.
+//! Cells that nothing reached are holes, and count in the squared error of the picture.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
 use serde::Serialize;

@@ -121,10 +121,10 @@ impl Plan {
 
 /// Cells that are timed in a round, for one configuration.
 const TIMED_CELLS: usize = 1_500_000;
-/// From so many cells on, a source is measured sparingly unless more is asked for.
+/// A source with at least so many cells is measured sparingly unless more is requested.
 const LARGE: usize = 100_000;
 
-/// A source on its way to a report.
+/// A source while it is measured.
 pub(crate) struct Run<'s> {
     job: &'s Job<'s>,
     reference: Reference<'s>,
@@ -138,7 +138,7 @@ impl Run<'_> {
     }
 }
 
-/// Measures a source; `tell` is told how it gets on.
+/// Measures a source; `notify` is called with the progress.
 fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
     let Job { source, frames, demand, .. } = *job;
     let reference = Reference::with_update(source, job.update.clone(), frames);

@@ -1,4 +1,4 @@
-//! The Pareto front of two costs: what nothing else beats in both.
+//! The Pareto front of two costs: the points that no other beats in both.
 
 /// Returns the indices of the points that no other point dominates, by rising first cost. A point dominates another if
 /// it is at most as large in both costs and smaller in one; of equal points the first stays. Points without two finite

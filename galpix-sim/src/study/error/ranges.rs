@@ -5,7 +5,7 @@ use galpix_core::{Bits, Layout};
 
 use crate::update::{Known, Sample, Update};
 
-/// The largest magnitudes in x, y and depth (pixels per frame, pixels a frame²; depth: parts of the range).
+/// The largest magnitudes in x, y and depth (pixels per frame, pixels per frame²; depth: parts of the range).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ranges {
     /// Of velocities at the update.

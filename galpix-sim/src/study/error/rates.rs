@@ -2,7 +2,7 @@
 //! same rates.
 //!
 //! A scene is rendered anew at every N-th frame; the picture of an update itself is without error, so that every frame
-//! of the display counts once at each rate. A capture has one update: it is held against its true pictures by age
+//! of the display counts once at each rate. A capture has one update: it is compared with its true pictures by age
 //! instead.
 
 use rayon::prelude::*;

@@ -1,4 +1,4 @@
-//! What the frames of a source are held against: the true pictures, the true paths, and the exact second-order paths.
+//! What the frames of a source are compared with: the true pictures, the true paths, and the exact second-order paths.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use crate::picture::Picture;
 use crate::source::Source;
 use crate::update::{Known, Sample, Truth, Update};
 
-/// Pictures are looked at in so many frames, fewer where they are large: FLIP takes a microsecond a pixel.
+/// The frames whose pictures are compared; fewer where they are large: FLIP takes a microsecond per pixel.
 const MOST_PICTURES: usize = 4;
 /// Pixels whose FLIP is taken for one configuration.
 const PIXELS: usize = 700_000;
-/// Frames in which positions are looked at.
+/// Frames in which positions are compared.
 const MOST_PLACES: usize = 6;
 
 /// A source, its update, and its truth.

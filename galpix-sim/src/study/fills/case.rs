@@ -13,10 +13,10 @@ pub struct Case {
     pub fill: Fill,
 }
 
-/// What is compared with: every cell of it is black that nothing reached.
+/// What the fills are compared with: cells that nothing reached are black.
 pub const NOTHING: Case = Case { name: "none", fill: Fill::Mode(FillMode::None) };
 
-/// Push-pull as it was before depth was taken into account.
+/// Push-pull without depth.
 pub const CLASSIC: &str = "push-pull-classic";
 
 /// Returns all of them, from cheap to rich; those that inpaint with this gamma, if one is given, and not within a fovea

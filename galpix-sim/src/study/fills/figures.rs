@@ -8,7 +8,7 @@ use crate::metric::stats::weighted_mean;
 use crate::picture::Picture;
 use crate::study::holes::{Holes, count};
 
-/// Cells around the disoccluded ones that are looked at. No filter of FLIP or SSIM reaches farther, and farther out a
+/// Cells around the disoccluded ones that are used. No filter of FLIP or SSIM reaches farther, and farther out a
 /// picture and the truth are the same.
 const MARGIN: usize = 24;
 

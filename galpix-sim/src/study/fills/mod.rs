@@ -1,4 +1,4 @@
-//! Every fill side by side: how well, and at what cost, each makes up what the warp of a source leaves open.
+//! A comparison of fills: how well, and at what cost, each fills what the warp of a source leaves open.
 //!
 //! ```text
 //! holes (the warp alone: which cells are judged) ─┬─▶ figures (of each fill's pictures) ─┐
@@ -192,7 +192,7 @@ struct Shown {
     largest: Option<Picture>,
 }
 
-/// What fills are judged by.
+/// The measures of fills.
 struct Judged<'s> {
     job: &'s Job<'s>,
     holes: &'s [Holes],

@@ -9,7 +9,7 @@ use crate::update::{Known, Update};
 pub struct Reach {
     /// The largest speed in any frame of the plan, in pixels per frame.
     pub speed: f64,
-    /// The largest acceleration, in pixels a frame².
+    /// The largest acceleration, in pixels per frame².
     pub acceleration: f64,
     /// The farthest that the acceleration alone carries a sample, in pixels.
     pub by_acceleration_px: f64,
