@@ -1,6 +1,6 @@
 //! The cells that are judged: those of the display that no galpixel of the update reached, by the warp alone, whatever
-//! is put into them. Those connected with the border are apart: what enters the picture was never next to anything
-//! known.
+//! is put into them. Those connected with the border are counted separately: what enters the picture was never next to
+//! anything known.
 
 use galpix_core::FillMode;
 

@@ -205,9 +205,9 @@ fn layout_for(update: &Update) -> Layout {
     if shaded { Layout::SHADED } else { Layout::FULL }
 }
 
-/// Checks that a source has what is wanted behind its first layer.
+/// Checks that a source has the requested hidden samples.
 ///
-/// *Errors:* it has nothing of this kind.
+/// *Errors:* it has none of this kind.
 pub fn check_strategy(source: &Source, strategy: Strategy) -> Result<(), ExperimentError> {
     if hidden::has(source, strategy.kind) {
         return Ok(());

@@ -134,7 +134,8 @@ pub struct Effort {
     pub frames: u32,
 }
 
-/// Times the contenders that `make` makes; they live for a turn only, so that their memory need not stand side by side.
+/// Times the contenders that `make` makes; they live for a turn only, so that their memory need not exist at the same
+/// time.
 pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl FnMut()) -> Vec<Option<Time>> {
     let mut rounds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); make.len()];
     let mut copy = Copy::default();

@@ -2,8 +2,8 @@
 //! the same number of cells a second; and what pinning does for instruments over the picture.
 //!
 //! Each surface of a scene is an object with a tag and a layer of its own, the first one the background in the base. A
-//! *rendering* is the rectangle of the cells in which a surface alone is seen, be it covered or not; every cell of it
-//! is counted as sent, be there something or not.
+//! *rendering* is the rectangle of the cells that a surface covers, also where another one hides it; all its cells are
+//! counted as sent, also empty ones.
 
 mod columns;
 mod pinned;
@@ -149,7 +149,7 @@ impl Study for Plan {
     }
 }
 
-/// The last picture of each strategy, for eyes.
+/// The last picture of each strategy.
 pub struct Pictures {
     /// Name and picture, the truth last.
     pub pictures: Vec<(String, Picture)>,

@@ -11,7 +11,7 @@ use crate::source::scene::{self, Scene};
 use crate::study::job::Request;
 use crate::update::{Known, Sample, Update};
 
-/// What became of what is pinned, in each of the strategies.
+/// The results of pinning, for each strategy.
 #[derive(Debug, Serialize)]
 pub struct PinnedReport {
     /// Pixels of the display.

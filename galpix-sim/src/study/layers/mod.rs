@@ -1,9 +1,9 @@
-//! The strategies to know what was hidden side by side: how much of what the warp leaves open each of them fills, for
-//! how many samples and at what cost, and how far the picture is from the truth after the fill mode did the rest.
+//! A comparison of strategies for hidden samples: how many of the missing cells each of them fills, with how many
+//! samples and at what cost, and how far the picture is from the truth after the fill mode.
 //!
 //! ```text
 //! holes (the warp of the first layer alone) ─┬─▶ shown (each strategy's frames) ─┬─▶ report ─▶ columns, page
-//! strategies ──────────────────────────────────────┴─▶ times (each strategy's frames) ─┘
+//! strategies ───────────────────────────────┴─▶ times (each strategy's frames) ─┘
 //! ```
 //!
 //! Errors are measured on all processors, times afterwards on one, each relative to a memory copy.

@@ -52,7 +52,7 @@ impl Contender for Layered<'_> {
 
 /// Returns the times of a job, one per strategy.
 ///
-/// *Errors:* a map that does not fit, a source that has not what a strategy hands over.
+/// *Errors:* a map that does not fit, a source without the samples of a strategy.
 pub fn of(job: &Job<'_>, strategies: &[Strategy]) -> Result<Vec<StrategyTime>, ExperimentError> {
     let update = job.update.as_ref();
     let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];

@@ -1,4 +1,4 @@
-//! The lines of Rust that make a plan so.
+//! The Rust code of a plan.
 
 use std::fmt::Write as _;
 

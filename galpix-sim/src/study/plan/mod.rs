@@ -6,8 +6,8 @@
 //!                     ─▶ fill mode (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust)
 //! ```
 //!
-//! The plane is decided by arithmetic: what leaving a field out costs at most is added to the certificate of what is
-//! left. Depth and fill mode are decided by running the update: a display does exactly that.
+//! The fields in the plane are chosen by arithmetic: the largest error of a field that is left out is added to the
+//! certificate of the rest. Depth and fill mode are chosen by running the update, as a display does.
 
 mod code;
 mod depth;

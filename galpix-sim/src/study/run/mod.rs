@@ -44,7 +44,7 @@ pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) ->
 
 /// Runs a job and compares every frame whose truth is known; `visit` sees each frame.
 ///
-/// *Errors:* a source that has not what is wanted behind its first layer, a map that does not fit.
+/// *Errors:* a source without the requested hidden samples, a map that does not fit.
 pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport, ExperimentError> {
     let Job { source, frames, demand, format, settings, request, .. } = job;
     let update = job.update.as_ref();

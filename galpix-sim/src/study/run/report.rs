@@ -76,7 +76,7 @@ pub struct TruthReport {
 }
 
 /// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each
-/// galpixel the worse of x and y.
+/// galpixel the larger of x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PositionReport {
     /// The worst, against the exact second-order path of the update's motion: what the certificate bounds.

@@ -1,7 +1,7 @@
 //! Follows a path and splits its error by cause, exactly.
 //!
-//! Five places lie between the true one and the cell that the display shows; what lies between two neighbours of them
-//! is the share of one cause, so that the shares add up to the whole error whatever the engine does:
+//! Between the true place and the cell shown lie four more places. The distance between two successive places is the
+//! share of one cause, so that the shares always add up to the whole error:
 //!
 //! ```text
 //! true motion ─ Taylor ─ exact path of the exact r, v, a ─ quantisation ─ that of r, v, a to nearest
@@ -17,7 +17,7 @@ use super::mover::{Moved, Mover, State};
 use super::path::Path;
 use super::setting::{Ranges, Setting};
 
-/// What parts the cell shown from the true place, in pixels: `true - shown` and its shares.
+/// The difference between the cell shown and the true place, in pixels: `true - shown` and its shares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Causes {
     /// What position, velocity and acceleration cannot know.

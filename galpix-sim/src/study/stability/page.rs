@@ -1,4 +1,4 @@
-//! The page: what the suite found, a section a case.
+//! The page: what the suite found, a section per case.
 
 mod plots;
 
