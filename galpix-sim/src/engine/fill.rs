@@ -8,7 +8,7 @@ pub use galpix_core::inpaint::Gamma;
 
 mod stage;
 
-/// Which picture inpainting makes of a hole.
+/// The kind of inpainting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// Push-pull: smooth colour from all around.

@@ -1,5 +1,5 @@
-//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough and how
-//! restless it is.
+//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough it is, and
+//! how much it flickers.
 //!
 //! The first three take the shown picture first, the truth second, and an optional mask of the cells that count
 //! (row-major, of the pictures' size; everything counts without it). They answer `None`, never panic, where there is

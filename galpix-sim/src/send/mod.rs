@@ -35,9 +35,9 @@ use talk::Talk;
 use crate::source::Source;
 use crate::source::fit;
 
-/// Between two questions for the device's frame counter.
+/// The time between two requests for the device's frame counter.
 const POLL: Duration = Duration::from_millis(10);
-/// How long the counter may stand still while an update waits for its frame.
+/// How long the counter may stay unchanged while an update waits for its frame.
 const STANDSTILL: Duration = Duration::from_secs(5);
 /// After this time a device in lockstep that has not moved gets the command again: it was lost.
 const AGAIN: Duration = Duration::from_secs(1);
@@ -114,7 +114,7 @@ pub struct Sent {
     pub saturated: u32,
 }
 
-/// What the device counted from the first question to the last.
+/// What the device counted from the first request to the last.
 #[derive(Clone, Debug, Serialize)]
 pub struct Device {
     /// The frame counter at the end.
@@ -240,7 +240,7 @@ fn galpixels(source: &Source, time: u32, panel: &Description, tag: u32) -> Vec<G
     galpixels
 }
 
-/// Puts the device into lockstep, or takes it out: how it is then.
+/// Puts the device into lockstep, or takes it out, and returns its status.
 fn hold(talk: &mut Talk<'_>, on: bool) -> Result<Option<Status>, SendError> {
     let mut status = None;
     for _ in 0..TELLINGS {
@@ -253,8 +253,8 @@ fn hold(talk: &mut Talk<'_>, on: bool) -> Result<Option<Status>, SendError> {
     Ok(status)
 }
 
-/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it makes these frames because it
-/// is told.
+/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it is told to make these
+/// frames.
 fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<Status, SendError> {
     let mut moved = Instant::now();
     let mut commanded: Option<(u32, Instant)> = None;

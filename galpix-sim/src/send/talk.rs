@@ -1,4 +1,4 @@
-//! Questions and answers over a line, and what is sent in between.
+//! Requests and answers over a line, and what is sent in between.
 
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
@@ -9,13 +9,13 @@ use galpix_link::frame::{Frame, MAX_ENCODED, Status};
 use super::SendError;
 use super::line::Line;
 
-/// How long a device may take to answer a question.
+/// How long a device may take to answer a request.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// What the slowest line carries in a second: a question waits behind everything that was sent before it.
+/// What the slowest line carries in a second: a request waits behind everything that was sent before it.
 const SLOWEST_BYTES_PER_SECOND: u64 = 10_000;
-/// How long a line that has become quiet is listened to, before a question.
+/// How long a line must be quiet before a request.
 const QUIET: Duration = Duration::from_millis(1);
-/// How long at most, where a device never becomes quiet.
+/// The longest wait for that.
 const NEVER_QUIET: Duration = Duration::from_millis(200);
 
 /// The host's end of a line.

@@ -1,4 +1,4 @@
-//! What a user reads when a capture cannot be used.
+//! The error of a capture that cannot be used.
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,4 @@
-//! What a capture knows behind its update: a second layer over the same pixels, or what pictures from elsewhere see
-//! there.
+//! The hidden samples of a capture: a second layer over the same pixels, or what pictures from other places show.
 
 use std::path::Path;
 

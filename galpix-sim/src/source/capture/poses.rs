@@ -1,4 +1,4 @@
-//! Camera paths: Redwood `.log`, TUM, `transforms.json`, TartanAir, and one matrix a file.
+//! Camera paths: Redwood `.log`, TUM, `transforms.json`, TartanAir, and one matrix per file.
 //!
 //! Every layout gives camera-to-world transforms; here the camera's axes become x right, y down, z forward.
 
