@@ -7,8 +7,8 @@
 //! because `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma
 //! is proved in `docs/error-bounds.md`.
 //!
-//! The snap to a cell, at most half a pixel, is the same for any method and is not included. A galpixel that saturates is
-//! counted, and not covered by the certificate.
+//! The snap to a cell, at most half a pixel, is the same for any method and is not included. A galpixel that saturates
+//! is counted, and not covered by the certificate.
 
 mod drift;
 mod smallest;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::call::{command, machine, writable};
 use super::{CliError, note, print, printable, printable_lines, progress};
 use crate::output::save::write_atomically;
-use crate::study::{Document, File, Found, Silent, Stage, Study, StudyError, Told, Work};
+use crate::study::{Document, File, Found, PathPrinted, Silent, Stage, Study, StudyError, Work};
 
 impl From<StudyError> for CliError {
     fn from(error: StudyError) -> Self {
@@ -99,11 +99,11 @@ fn publish<S: Study>(study: &S, document: &Document<S::Extra, S::Report>, to: &P
     if let Some(out) = &to.out {
         let files = study.files(document)?;
         files.iter().try_for_each(|file| write(out, file))?;
-        page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != Told::Nowhere);
+        page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != PathPrinted::Nowhere);
     }
     if to.json {
         print(&study.json(document).map_err(|error| CliError::Failed(error.to_string()))?)?;
-        if let (Some(page), Told::Always) = (page, S::PATH) {
+        if let (Some(page), PathPrinted::Always) = (page, S::PATH) {
             note(&format!("the report is in {}", page.display()));
         }
         return Ok(());

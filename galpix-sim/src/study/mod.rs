@@ -148,7 +148,7 @@ pub struct NoExtra {}
 
 /// Where the path of a study's last file, its page, is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum PathPrinted {
     /// Nowhere.
     Nowhere,
     /// On standard output, unless JSON is printed there.
@@ -176,7 +176,7 @@ pub trait Study {
     /// Whether the duration of the study is reported.
     const SECONDS: bool = true;
     /// Where the path of its last file is printed.
-    const PATH: Told = Told::Printed;
+    const PATH: PathPrinted = PathPrinted::Printed;
 
     /// Returns the source's name.
     fn name<'a>(&self, source: &'a Self::Source) -> &'a str;

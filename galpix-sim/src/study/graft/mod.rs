@@ -21,7 +21,7 @@ use report::{GraftReport, StrategyReport};
 use run::{Deliver, Strategy};
 use world::World;
 
-use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
+use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
 use crate::engine::EngineError;
 use crate::picture::Picture;
 use crate::source::scene::Scene;
@@ -103,7 +103,7 @@ impl Study for Plan {
     type Extra = NoExtra;
 
     const LEGEND: Option<&'static str> = Some(columns::LEGEND);
-    const PATH: Told = Told::Nowhere;
+    const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
         scene.name()

@@ -31,7 +31,7 @@ pub use setting::{Law, Ranges, Setting, SettingError};
 pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
 
 use super::run::BudgetReport;
-use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
+use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
 use crate::engine::EngineError;
 use mover::{Mover, Strip};
 use verdict::{Verdict, judge};
@@ -86,7 +86,7 @@ impl Study for Request {
     type Report = Report;
     type Extra = NoExtra;
 
-    const PATH: Told = Told::Always;
+    const PATH: PathPrinted = PathPrinted::Always;
 
     fn name<'a>(&self, (): &'a ()) -> &'a str {
         "stability"
