@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stand_ins_are_found_by_their_lanes() {
+    fn stand_ins_are_found_by_their_fields() {
         let names = Kept::ALL.map(|kept| of(kept).map(StandIn::name));
         let [still, velocity, full] = ["still in 1 words", "velocity in 3 words", "full in 5 words"];
         let expected = [Some(still), Some(velocity), None, None, Some(full), None];

@@ -41,7 +41,7 @@ fn both_ends_of_two_chained_flows_are_reached_exactly() {
 }
 
 #[test]
-fn beside_unknown_flow_the_velocity_stays_constant() {
+fn next_to_unknown_flow_the_velocity_stays_constant() {
     let folder = Folder::new()
         .with("a.flo", flo(|_, _| [0.5, 0.0]))
         .with("b.flo", flo(|x, y| if (x, y) == (1, 1) { [f32::NAN; 2] } else { [2.5, 0.0] }));

@@ -38,7 +38,7 @@ fn names_and_texts() {
 }
 
 #[test]
-fn every_bad_manifest_is_refused_with_a_mend() {
+fn every_bad_manifest_is_refused_with_a_hint() {
     let folder = folder();
     // (text of the manifest, its replacement, text of the refusal)
     let changes = [

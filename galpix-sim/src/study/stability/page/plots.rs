@@ -12,7 +12,7 @@ use crate::output::html::text::Text;
 pub fn plots(case: &CaseReport, shown: &RoundingReport) -> Markup {
     html! {
         div.plots {
-            @if let Some(path) = shown.reported() { (by_cause(case, path)) (beside_floats(case, path)) (by_rounding(case)) }
+            @if let Some(path) = shown.reported() { (by_cause(case, path)) (floats_compared(case, path)) (by_rounding(case)) }
             @if !shown.pictures.is_empty() { (tallies(case, shown)) }
         }
     }
@@ -92,7 +92,7 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> Markup {
     )
 }
 
-fn beside_floats(case: &CaseReport, path: &PathReport) -> Markup {
+fn floats_compared(case: &CaseReport, path: &PathReport) -> Markup {
     let mut lines = bounds(path);
     lines.extend([
         line("f64", Ink::Collided, Stroke::Solid, path, |row| Some(row.f64_px.abs())),
