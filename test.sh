@@ -138,8 +138,8 @@ step_codegen() {
     cargo test --locked --workspace --all-features --test all -- codegen
 }
 
-# The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md
-# alone.
+# The golden vectors, and two more sets of random maps, compared with the second model, which was written from
+# docs/spec.md alone.
 step_model() {
     command -v python3 >/dev/null || { skip "python3 is not installed"; return; }
     local seed

@@ -23,19 +23,20 @@ impl Picture {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
-    /// The pixel in column `x` of row `y`. Panics outside of the picture.
+    /// Returns the pixel in column `x` of row `y`. Panics outside of the picture.
     #[must_use]
     pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
         self.pixels[y * self.width + x]
     }
 
-    /// The pixels as one run of bytes, red first.
+    /// Returns the pixels as one run of bytes, red first.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         self.pixels.as_flattened()
     }
 
-    /// The window of `width` x `height` pixels whose top left corner is (`left`, `top`). Panics if it is not inside.
+    /// Returns the window of `width` x `height` pixels whose top left corner is (`left`, `top`). Panics if it is not
+    /// inside.
     #[must_use]
     pub fn crop(&self, left: usize, top: usize, width: usize, height: usize) -> Self {
         let pixels =
@@ -43,7 +44,7 @@ impl Picture {
         Self { width, height, pixels }
     }
 
-    /// The picture as an 8-bit PNG.
+    /// Returns the picture as an 8-bit PNG.
     pub fn png(&self) -> std::io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);

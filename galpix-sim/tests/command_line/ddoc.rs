@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use crate::{done, entries, folder, json, picture, read, refused};
 
-/// A cube with colours at its corners, as some programs write them.
+/// Returns a cube with colours at its corners, as some programs write them.
 fn cube() -> String {
     let mut obj = String::from("o cube\n");
     for corner in 0..8 {

@@ -31,7 +31,7 @@ fn page_values_and_pictures_say_the_same() {
     assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
     assert_eq!(page.matches("<tr><td").count(), fills.len());
 
-    // The pictures: those that the index lists, the mask as large as the document says, and what no mask covers is the
+    // The pictures: those that the index lists, the mask as large as in the document, and what no mask covers is the
     // same in all.
     let mut listed = 0;
     for (frame, cells) in
@@ -67,10 +67,10 @@ fn one_document_and_only_the_fills_that_were_asked_for() {
     assert!(entries(folder.path()).is_empty(), "without --out nothing is written");
     assert_eq!(document["fovea"], 60);
     let fills = document["sources"][0]["fills"].as_array().unwrap();
-    let said = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
-    assert_eq!(said("name"), "\"extend\" \"push-pull-classic\" \"push-pull\"");
-    assert_eq!(said("gamma"), "null \"0\" \"1\"");
-    assert_eq!(said("depth_aware"), "null false true");
+    let values = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
+    assert_eq!(values("name"), "\"extend\" \"push-pull-classic\" \"push-pull\"");
+    assert_eq!(values("gamma"), "null \"0\" \"1\"");
+    assert_eq!(values("depth_aware"), "null false true");
     for fill in fills {
         assert!(fill["time"]["x_copy"].as_f64().unwrap() > 0.0);
         assert_eq!(fill["frames"].as_array().unwrap().len(), 3);

@@ -90,7 +90,7 @@ impl Emulator {
             return Err(Failure::new(format!("{}: the emulator has ended", self.board.name())));
         }
         serde_json::from_str(&line)
-            .map_err(|error| Failure::new(format!("the emulator says what is no JSON ({error}): {line}")))
+            .map_err(|error| Failure::new(format!("the emulator's answer is no JSON ({error}): {line}")))
     }
 
     fn command(&mut self, command: &Value) -> Result<(), Failure> {
@@ -106,7 +106,7 @@ impl Emulator {
         }
     }
 
-    /// What its panel shows.
+    /// Returns what its panel shows.
     pub fn screen(&mut self) -> Result<Picture, Failure> {
         let file = self.folder.path().join("screen.png");
         self.command(&json!({
@@ -119,7 +119,7 @@ impl Emulator {
         self.board.pixels(&screen)
     }
 
-    /// Whether the program still runs.
+    /// Returns whether the program still runs.
     pub fn runs(&mut self) -> bool {
         matches!(self.child.0.try_wait(), Ok(None))
     }

@@ -93,15 +93,15 @@ fn combined(
     Ok((size, r.iter().zip(&g).zip(&b).map(|((&r, &g), &b)| [r, g, b].map(srgb)).collect()))
 }
 
-/// Linear light (1 = white) as an 8-bit sRGB code, IEC 61966-2-1; NaN becomes black.
+/// Returns linear light (1 = white) as an 8-bit sRGB code, IEC 61966-2-1; NaN becomes black.
 fn srgb(linear: f64) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let code = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (code * 255.0).round() as u8
 }
 
-/// What is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half. Others that
-/// are not quite transparent, or not quite opaque, are noted.
+/// Returns what is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half.
+/// Others that are not quite transparent, or not quite opaque, are noted.
 pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> Result<Overlay, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as an overlay must be", "save it as a PNG with alpha"));
@@ -124,7 +124,7 @@ pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> R
     Ok(Overlay { width: expected.width, height: expected.height, pixels })
 }
 
-/// A mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.
+/// Returns a mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.
 pub(super) fn mask(source: &Source, expected: Size) -> Result<Vec<bool>, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as a mask must be", "save it as an 8-bit grey PNG"));
