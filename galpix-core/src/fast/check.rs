@@ -29,8 +29,8 @@ const ALL: usize = 1 << 12;
 const SAMPLE: usize = 13;
 
 /// Returns whether a pass over a map of this number of cells is to be compared with its reference. A test has a thread
-/// of its own, and with it a count of its own. Comparing every pass of the tests that enumerate millions of maps, or run
-/// captures, would take up to ten times their time.
+/// of its own, and with it a count of its own. Comparing every pass of the tests that enumerate millions of maps, or
+/// run captures, would take up to ten times their time.
 pub(crate) fn due(cells: u32) -> bool {
     std::thread_local! { static PASSES: Cell<usize> = const { Cell::new(0) }; }
     let passes = PASSES.get();
