@@ -138,8 +138,8 @@ step_codegen() {
     cargo test --locked --workspace --all-features --test all -- codegen
 }
 
-# The golden vectors, and two more sets of random maps, beside the second model, which was written from docs/spec.md
-# alone.
+# The golden vectors, and two more sets of random maps, compared with the second model, which was written from
+# docs/spec.md alone.
 step_model() {
     command -v python3 >/dev/null || { skip "python3 is not installed"; return; }
     local seed
@@ -181,7 +181,7 @@ step_msrv() {
             { skip "Rust $least, the rust-version, cannot be installed here; $(rustc --version) is"; return; }
     fi
     CARGO_TARGET_DIR=target/msrv cargo "+$(rustup toolchain list | sed -n "s/^\($least[.0-9]*\).*/\1/p" | head -n 1)" \
-        check --locked --workspace --all-features
+        check --locked -p galpix-core -p galpix-sim --all-features
 }
 
 # What is published: the package is complete and builds by itself, from what is already fetched. Licences and bans where

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! `sweep` is propagation and resolution, `sweep-winners` the same with the winner map that the richer fill modes need.
-//! For ratios to a memory copy and to floats, which say more on a noisy machine, see `src/bin/ratios.rs`.
+//! For ratios to a memory copy and to floats, which depend less on the machine, see `src/bin/ratios.rs`.
 
 use std::cell::{LazyCell, RefCell};
 use std::hint::black_box;
@@ -24,7 +24,7 @@ const SIZES: [(u32, u32); 3] = [(320, 240), (512, 512), (1024, 1024)];
 fn stages<P: Profile + 'static>(criterion: &mut Criterion, layout: &str) {
     for ((width, height), motion) in SIZES.into_iter().flat_map(|size| Motion::ALL.map(|motion| (size, motion))) {
         let name = format!("layout={layout}/size={width}x{height}/motion={}", motion.name());
-        // Laid out when a bench asks for it: what a filter leaves out costs nothing.
+        // Made when a bench needs it: what a filter leaves out costs nothing.
         let maps = LazyCell::new(|| {
             RefCell::new(Maps::new(width, height, Static::<P>::new(), &samples(width, height, motion)))
         });
@@ -50,7 +50,7 @@ fn stages<P: Profile + 'static>(criterion: &mut Criterion, layout: &str) {
     }
 }
 
-/// The obvious way in floats, under the same names.
+/// The obvious version in floats, under the same names.
 fn floats(criterion: &mut Criterion) {
     for ((width, height), motion) in SIZES.into_iter().flat_map(|size| Motion::ALL.map(|motion| (size, motion))) {
         let mut group = criterion.benchmark_group("stage=sweep");

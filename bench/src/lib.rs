@@ -1,7 +1,7 @@
-//! What the programs of this crate share: scenes, maps to lay them into, a race, and the obvious ways in floats.
+//! What the programs of this crate share: scenes, maps to lay them into, a race, and the obvious versions in floats.
 //!
-//! - `ratios`: a frame and its stages, beside a memory copy and floats, and a format fixed at compile time beside the
-//!   same one chosen at run time
+//! - `ratios`: a frame and its stages, compared with a memory copy and floats, and a format fixed at compile time with
+//!   the same one chosen at run time
 //! - `constant_time`: instructions of a frame, which must not depend on the picture
 //! - `inpaint`, `layers`, `disocclusion`: the same for what these modules of the core add
 //! - `cargo bench`: each stage, and push-pull, by size
@@ -61,10 +61,11 @@ pub fn at_run_time<P: Profile>() -> Dynamic {
 /// Returns a grid whose table of row starts is never given back. Panics if there is no such grid.
 #[must_use]
 pub fn grid(width: u32, height: u32) -> Grid<'static> {
-    Grid::new(width, height, Margin::NONE, lent(Grid::rows(height, Margin::NONE))).expect("a size that can be laid out")
+    Grid::new(width, height, Margin::NONE, buffer(Grid::rows(height, Margin::NONE)))
+        .expect("a size that can be laid out")
 }
 
-fn lent(words: usize) -> &'static mut [u32] {
+fn buffer(words: usize) -> &'static mut [u32] {
     vec![0; words].leak()
 }
 
@@ -105,14 +106,14 @@ impl<F: Format> Maps<F> {
     pub fn new(width: u32, height: u32, format: F, samples: &[Sample]) -> Self {
         let grid = grid(width, height);
         let words = Galpixmap::words(&grid, format);
-        let front = lent(words);
+        let front = buffer(words);
         paint(&mut Galpixmap::new(grid, format, front).expect("memory enough"), samples);
         Self {
             format,
             grid,
             front,
-            back: lent(words),
-            scratch: Scratch { winners: lent(grid.cells() as usize), edges: lent(stages::words(&grid)) },
+            back: buffer(words),
+            scratch: Scratch { winners: buffer(grid.cells() as usize), edges: buffer(stages::words(&grid)) },
             settings: Settings::for_depth(format.record().depth().bits.into()),
             line: vec![0; width as usize],
             extents: vec![0; grid.cells() as usize],

@@ -12,9 +12,9 @@ pub enum Picture {
     Empty,
     /// Every galpixel wants the cell in the middle, the later the nearer.
     OneCell,
-    /// Every galpixel its own way, at a depth of its own.
+    /// Each galpixel has its own velocity and depth.
     Random,
-    /// Neighbours move in opposite ways.
+    /// Neighbours move in opposite directions.
     Checkerboard,
     /// Every other cell is empty, by chance; what is there moves together.
     HalfHoles,
@@ -27,7 +27,7 @@ pub enum Picture {
     /// Debris and what was just unobscured, among galpixels.
     Debris,
     /// Every field of every galpixel by chance.
-    Rubbish,
+    Arbitrary,
 }
 
 impl Picture {
@@ -43,7 +43,7 @@ impl Picture {
         Self::Saturating,
         Self::Zoom,
         Self::Debris,
-        Self::Rubbish,
+        Self::Arbitrary,
     ];
 
     /// As in tables.
@@ -59,7 +59,7 @@ impl Picture {
             Self::Saturating => "saturating",
             Self::Zoom => "zoom",
             Self::Debris => "debris",
-            Self::Rubbish => "rubbish",
+            Self::Arbitrary => "arbitrary words",
         }
     }
 
@@ -84,15 +84,15 @@ impl Picture {
             Self::Empty => Galpixel { class: Class::Empty, ..plane },
             Self::OneCell => {
                 let nearer = far - (number(y) + (number(x) >> 8)) / i64::from(height.max(2) * 2);
-                let way = [number(width / 2 - x), number(height / 2 - y), I32F32::ZERO];
-                Galpixel { velocity: way, depth: nearer, ..plane }
+                let velocity = [number(width / 2 - x), number(height / 2 - y), I32F32::ZERO];
+                Galpixel { velocity, depth: nearer, ..plane }
             }
             Self::Random => {
-                let way = [(part(0) - half) * 4, (part(1) - half) * 4, (part(2) - half) / 64];
+                let velocity = [(part(0) - half) * 4, (part(1) - half) * 4, (part(2) - half) / 64];
                 let acceleration = [(part(3) - half) / 4, (part(2) - half) / 4, I32F32::ZERO];
                 let offset = [part(1) - half, part(0) - half];
                 Galpixel {
-                    velocity: way,
+                    velocity,
                     acceleration,
                     offset,
                     depth: part(3),
@@ -101,8 +101,12 @@ impl Picture {
                 }
             }
             Self::Checkerboard => {
-                let way = number(1 - ((x ^ y) & 1) * 2);
-                Galpixel { velocity: [way, way, I32F32::ZERO], depth: if way > 0 { near } else { far }, ..plane }
+                let velocity = number(1 - ((x ^ y) & 1) * 2);
+                Galpixel {
+                    velocity: [velocity, velocity, I32F32::ZERO],
+                    depth: if velocity > 0 { near } else { far },
+                    ..plane
+                }
             }
             Self::HalfHoles => {
                 let class = if own & 1 == 0 { Class::Empty } else { Class::Galpixel };
@@ -120,8 +124,8 @@ impl Picture {
                 let (from_left, from_top) = (number(x) - number(width) * half, number(y) - number(height) * half);
                 let thing = (x - width / 3).abs() < width / 6 && (y - height / 2).abs() < height / 5;
                 if thing {
-                    let way = [I32F32::lit("1.5"), half, I32F32::ZERO];
-                    return Galpixel { velocity: way, depth: near, tag: 1, ..plane };
+                    let velocity = [I32F32::lit("1.5"), half, I32F32::ZERO];
+                    return Galpixel { velocity, depth: near, tag: 1, ..plane };
                 }
                 Galpixel { velocity: [from_left / 16, from_top / 16, -near / 256], ..plane }
             }
@@ -129,7 +133,7 @@ impl Picture {
                 let class = Class::from_bits((own >> 8) as u32);
                 Galpixel { class, velocity: [near, half, I32F32::ZERO], ..plane }
             }
-            Self::Rubbish => Galpixel {
+            Self::Arbitrary => Galpixel {
                 class: Class::from_bits((own >> 8) as u32),
                 colour: [own as u8, (own >> 8) as u8, (own >> 16) as u8],
                 offset: [part(0) - half, part(1) - half],

@@ -36,13 +36,13 @@ impl Contender {
         Self { what: what.into(), group: group.into(), bytes, before, run, times: Vec::new(), copies: Vec::new() }
     }
 
-    /// What it is called.
+    /// Returns what it is called.
     #[must_use]
     pub fn what(&self) -> &str {
         &self.what
     }
 
-    /// Which contenders it is measured against.
+    /// Returns which contenders it is measured against.
     #[must_use]
     pub fn group(&self) -> &str {
         &self.group

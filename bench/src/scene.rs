@@ -15,7 +15,7 @@ pub enum Motion {
     Still,
     /// Rigid things and a background.
     Scene,
-    /// Every cell by its own velocity, up to two cells a frame in x and y: the worst case.
+    /// Every cell by its own velocity, up to two cells per frame in x and y: the worst case.
     Random,
 }
 
@@ -62,7 +62,7 @@ impl Sample {
     }
 }
 
-/// A counter made into noise (the finaliser of SplitMix64).
+/// Returns a counter made into noise (the finaliser of SplitMix64).
 fn noise(seed: u64, counter: u64) -> u64 {
     let mut bits = seed.wrapping_add(counter.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -70,7 +70,7 @@ fn noise(seed: u64, counter: u64) -> u64 {
     bits ^ (bits >> 31)
 }
 
-/// The `index`th 16 bits of noise as a number of 0 to 1.
+/// Returns the `index`th 16 bits of noise as a number of 0 to 1.
 fn part(bits: u64, index: u32) -> f32 {
     (bits >> (16 * index) & 0xffff) as f32 / 65535.0
 }
@@ -111,7 +111,7 @@ fn texture(x: i32, y: i32, tint: u64) -> [u8; 3] {
     [0, 1, 2].map(|channel| 64 + (base >> (8 * channel)) as u8 / 4 + checks + (grain >> (8 * channel)) as u8 / 32)
 }
 
-/// The scene's cells in raster order.
+/// Returns the scene's cells in raster order.
 pub fn samples(width: u32, height: u32, motion: Motion) -> Vec<Sample> {
     let (w, h) = (width as f32, height as f32);
     let things: Vec<_> = (0..24).map(|number| Thing::new(number, w, h)).collect();

@@ -69,10 +69,10 @@ fn push(coarse: &Level, fine: &mut Level) {
             if pixel[3] >= 1.0 {
                 continue;
             }
-            let beside =
+            let neighbour =
                 |at: usize, size: usize| if at % 2 == 1 { (at / 2 + 1).min(size - 1) } else { (at / 2).max(1) - 1 };
             let (near_x, near_y) = (x / 2, y / 2);
-            let (far_x, far_y) = (beside(x, coarse.width), beside(y, coarse.height));
+            let (far_x, far_y) = (neighbour(x, coarse.width), neighbour(y, coarse.height));
             let mut from_above = [0.0; 3];
             for (x, y, weight) in
                 [(near_x, near_y, 9.0), (far_x, near_y, 3.0), (near_x, far_y, 3.0), (far_x, far_y, 1.0)]

@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     starts.resize(2 * words, 0);
     let (front, back) = starts.split_at_mut(words);
     let mut front = Galpixmap::new(grid, format, front)?;
-    // Red that moves right by a cell a frame and brightens by eight code values a frame.
+    // Red that moves right by a cell a frame and brightens by eight code values per frame.
     front.store(
         0,
         0,

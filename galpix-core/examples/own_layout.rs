@@ -1,4 +1,5 @@
-//! A layout of one's own: a slider without depth, 12 bits a galpixel. `cargo run -p galpix-core --example own_layout`.
+//! A layout of one's own: a slider without depth, 12 bits per galpixel. `cargo run -p galpix-core --example
+//! own_layout`.
 
 use galpix_core::record::{Component, Shave};
 use galpix_core::{Bits, BudgetError, Colour, Demand, Dynamic, Format, Layout};

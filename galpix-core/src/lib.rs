@@ -40,7 +40,7 @@
 //! }
 //!
 //! fn main() -> Result<(), SetupError> {
-//!     // The table of row starts, and two maps of 64 x 4 cells with two words a cell.
+//!     // The table of row starts, and two maps of 64 x 4 cells with two words per cell.
 //!     let (mut rows, mut front, mut back) = ([0; 4], [0; 2 * 64 * 4], [0; 2 * 64 * 4]);
 //!     let grid = Grid::new(64, 4, Margin::NONE, &mut rows)?;
 //!     let mut front = Galpixmap::new(grid, Static::<Panel>::new(), &mut front)?;

@@ -75,7 +75,7 @@ impl Random {
     }
 }
 
-/// One change: an entry drawn anew, two entries exchanged, or an entry one more or less.
+/// Returns one change: an entry drawn anew, two entries exchanged, or an entry one more or less.
 fn neighbour(thresholds: &[i32], random: &mut Random) -> Vec<i32> {
     let mut changed = thresholds.to_vec();
     let (i, j) = (random.below(changed.len()), random.below(changed.len()));
@@ -107,7 +107,7 @@ fn anneal(down: u32, rounds: u32, seed: u64) -> Found {
     best
 }
 
-/// All tables of up to four entries.
+/// Returns all tables of up to four entries.
 fn every(down: u32) -> impl Iterator<Item = Found> {
     let period = 1u32 << down;
     let entries = move |table: u32| (0..period).map(move |n| (table >> (n * down) & (period - 1)) as i32).collect();

@@ -11,6 +11,7 @@
 pub mod certificate;
 pub mod cli;
 pub mod engine;
+pub mod figure;
 pub mod metric;
 pub mod output;
 pub mod overlay;

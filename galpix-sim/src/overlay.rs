@@ -18,14 +18,14 @@ pub struct Overlay {
 }
 
 impl Overlay {
-    /// A surface with what `pinned` says of each column and row.
+    /// Returns a surface with what `pinned` returns for each column and row.
     #[must_use]
     pub fn draw(width: usize, height: usize, pinned: impl Fn(usize, usize) -> Option<[u8; 3]>) -> Self {
         let pixels = (0..width * height).map(|cell| pinned(cell % width, cell / width)).collect();
         Self { width, height, pixels }
     }
 
-    /// A picture under this surface.
+    /// Returns a picture under this surface.
     #[must_use]
     pub fn over(&self, mut picture: Picture) -> Picture {
         for (pixel, pinned) in picture.pixels.iter_mut().zip(&self.pixels) {
@@ -34,7 +34,7 @@ impl Overlay {
         picture
     }
 
-    /// How many pixels are pinned.
+    /// Returns how many pixels are pinned.
     #[must_use]
     pub fn pinned(&self) -> usize {
         self.pixels.iter().flatten().count()

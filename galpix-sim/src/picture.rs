@@ -1,6 +1,9 @@
 //! A picture in memory: what a renderer delivers, what a display shows, what a truth looks like.
 
+use std::io::Cursor;
 use std::path::Path;
+
+use png::{BitDepth, ColorType, Compression, Transformations};
 
 /// An 8-bit sRGB picture, rows from top to bottom, `width * height` pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,19 +23,20 @@ impl Picture {
         Self { width, height, pixels: vec![colour; width * height] }
     }
 
-    /// The pixel in column `x` of row `y`. Panics outside of the picture.
+    /// Returns the pixel in column `x` of row `y`. Panics outside of the picture.
     #[must_use]
     pub fn at(&self, x: usize, y: usize) -> [u8; 3] {
         self.pixels[y * self.width + x]
     }
 
-    /// The pixels as one run of bytes, red first.
+    /// Returns the pixels as one run of bytes, red first.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         self.pixels.as_flattened()
     }
 
-    /// The window of `width` x `height` pixels whose top left corner is (`left`, `top`). Panics if it is not inside.
+    /// Returns the window of `width` x `height` pixels whose top left corner is (`left`, `top`). Panics if it is not
+    /// inside.
     #[must_use]
     pub fn crop(&self, left: usize, top: usize, width: usize, height: usize) -> Self {
         let pixels =
@@ -40,19 +44,36 @@ impl Picture {
         Self { width, height, pixels }
     }
 
-    /// The picture as an 8-bit PNG.
+    /// Returns the picture as an 8-bit PNG.
     pub fn png(&self) -> std::io::Result<Vec<u8>> {
-        let mut bytes = std::io::Cursor::new(Vec::new());
-        image::write_buffer_with_format(
-            &mut bytes,
-            self.bytes(),
-            self.width as u32,
-            self.height as u32,
-            image::ColorType::Rgb8,
-            image::ImageFormat::Png,
-        )
-        .map_err(std::io::Error::other)?;
-        Ok(bytes.into_inner())
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Fast);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(self.bytes())?;
+        writer.finish()?;
+        Ok(bytes)
+    }
+
+    /// Reads a PNG of any colour type as 8 bits a channel; alpha is left out.
+    ///
+    /// *Errors:* bytes that are no whole PNG.
+    pub fn from_png(bytes: &[u8]) -> std::io::Result<Self> {
+        let mut decoder = png::Decoder::new(Cursor::new(bytes));
+        decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
+        let mut reader = decoder.read_info()?;
+        let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
+        let frame = reader.next_frame(&mut samples)?;
+        let channels = frame.color_type.samples();
+        let colour = |pixel: &[u8]| match *pixel {
+            [red, green, blue, ..] => [red, green, blue],
+            [grey, ..] => [grey; 3],
+            [] => [0; 3],
+        };
+        let pixels = samples[..frame.buffer_size()].chunks_exact(channels).map(colour).collect();
+        Ok(Self { width: frame.width as usize, height: frame.height as usize, pixels })
     }
 
     /// Writes the picture as an 8-bit PNG, whole or not at all.

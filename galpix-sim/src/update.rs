@@ -22,17 +22,17 @@ pub enum Known {
 /// One rendered sample and its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Sample {
-    /// sRGB, 8 bits a channel.
+    /// sRGB, 8 bits per channel.
     pub colour: [u8; 3],
     /// Whether the motion may be believed.
     pub known: Known,
     /// Normalised depth, see the module's text.
     pub depth: f64,
-    /// Velocity in x and y (pixels a frame) and of the depth (normalised depth a frame).
+    /// Velocity in x and y (pixels per frame) and of the depth (normalised depth per frame).
     pub velocity: [f64; 3],
-    /// Acceleration in x and y (pixels a frame²) and of the depth (normalised depth a frame²).
+    /// Acceleration in x and y (pixels per frame²) and of the depth (normalised depth per frame²).
     pub acceleration: [f64; 3],
-    /// Change of luminosity, in 8-bit code values a frame (shading inertia).
+    /// Change of luminosity, in 8-bit code values per frame (shading inertia).
     pub luminosity_rate: f64,
     /// Object tag; 0 where there are no objects.
     pub tag: u8,
@@ -50,9 +50,9 @@ pub enum DepthKind {
     Speed,
 }
 
-/// How many samples the galpixmap has beyond the display on each side ("in the wings").
+/// How many samples the galpixmap has beyond the display on each side (Costella: "in the wings").
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Serialize)]
-pub struct Wings {
+pub struct Margin {
     /// Columns left of the display.
     pub left: usize,
     /// Columns right of the display.
@@ -63,8 +63,8 @@ pub struct Wings {
     pub bottom: usize,
 }
 
-impl Wings {
-    /// The same margin on all four sides.
+impl Margin {
+    /// Creates the same margin on all four sides.
     #[must_use]
     pub const fn all(cells: usize) -> Self {
         Self { left: cells, right: cells, top: cells, bottom: cells }
@@ -74,12 +74,12 @@ impl Wings {
 /// One update: everything that a renderer hands over at once.
 #[derive(Clone, Debug)]
 pub struct Update {
-    /// Columns of `samples`, wings included.
+    /// Columns of `samples`, margin included.
     pub width: usize,
-    /// Rows of `samples`, wings included.
+    /// Rows of `samples`, margin included.
     pub height: usize,
     /// The part of `width` x `height` that lies outside of the display.
-    pub wings: Wings,
+    pub margin: Margin,
     /// Row-major, `width * height`.
     pub samples: Vec<Sample>,
     /// Where the depth came from.
@@ -89,24 +89,24 @@ pub struct Update {
 }
 
 impl Update {
-    /// Columns of the display.
+    /// Returns the columns of the display.
     #[must_use]
     pub fn display_width(&self) -> usize {
-        self.width - self.wings.left - self.wings.right
+        self.width - self.margin.left - self.margin.right
     }
 
-    /// Rows of the display.
+    /// Returns the rows of the display.
     #[must_use]
     pub fn display_height(&self) -> usize {
-        self.height - self.wings.top - self.wings.bottom
+        self.height - self.margin.top - self.margin.bottom
     }
 
-    /// The colours inside the display, under what is pinned.
+    /// Returns the colours inside the display, under what is pinned.
     #[must_use]
     pub fn picture(&self) -> Picture {
         let whole =
             Picture { width: self.width, height: self.height, pixels: self.samples.iter().map(|s| s.colour).collect() };
-        let display = whole.crop(self.wings.left, self.wings.top, self.display_width(), self.display_height());
+        let display = whole.crop(self.margin.left, self.margin.top, self.display_width(), self.display_height());
         match &self.overlay {
             Some(overlay) => overlay.over(display),
             None => display,

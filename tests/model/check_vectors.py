@@ -124,7 +124,7 @@ def read_engine(case, where):
     budget = model.Budget(tuple(read_component(entry, where) for entry in components), *numbers)
     entry = get(case, "layout", dict, where)
     layout = model.Layout(
-        get_int(entry, "depth_bits", where), *(get(entry, lane, bool, where) for lane in
+        get_int(entry, "depth_bits", where), *(get(entry, field, bool, where) for field in
                                                ("velocity", "acceleration", "depth_motion", "luminosity")),
         get_int(entry, "tag_bits", where), get_choice(entry, "colour", model.FORMATS, where))
     grid = get(case, "grid", dict, where)
@@ -147,7 +147,7 @@ def compare_numbers(name, expected, got, where, differences):
 
 
 def compare_map(name, expected, galpixels, engine, where, differences):
-    """A map of the vectors and one of the model; the differences are told field by field."""
+    """A map of the vectors and one of the model; the differences are reported field by field."""
     record, cells = engine.record, len(galpixels)
     got = model.pack_map(galpixels, record)
     if expected == got:
@@ -211,13 +211,13 @@ def check_step(case, where, differences):
             raise Broken(f"{where}: a step or result is not a list of {width} integers")
     if len(steps) != len(results):
         raise Broken(f"{where}: {len(steps)} steps, but {len(results)} results")
-    lane = component.acceleration_int > 0
-    model.check_component(component, lane, component.position_frac, "the component")
+    field = component.acceleration_int > 0
+    model.check_component(component, field, component.position_frac, "the component")
     shifts = model.component_shifts(component, component.position_frac)
     bits = component.velocity_int + component.velocity_frac
     for index, ((n, r, v, a), expected) in enumerate(zip(steps, results)):
         thresh = model.threshold(rounding, shifts.down, n)
-        r1, v1, clamped = model.step(r, v, a, shifts, thresh, bits, lane)
+        r1, v1, clamped = model.step(r, v, a, shifts, thresh, bits, field)
         cells, offset = model.cells_moved(r1, component.position_frac)
         got = [r1, cells, offset, v1, abs(clamped)]
         if expected != got:
@@ -275,15 +275,15 @@ def check_fill(case, where, differences):
     engine = read_engine(case, where)
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
     compare_record(case, record, where, differences)
-    rung = get_choice(case, "rung", model.RUNGS, where)
+    fill_mode = get_choice(case, "rung", model.FILL_MODES, where)
     arrays = {name: get_words(case, name, where, record.words * cells) for name in ("front", "resolved", "map")}
     arrays.update({name: get_words(case, name, where, cells) for name in ("winners", "winners_after")})
-    # rungs that tell no surfaces apart make no edge map; the text does not say what stands here for them
-    length = -(-cells // 32) if model.tells_surfaces_apart(rung) or case.get("edges") else 0
+    # fill modes that do not separate surfaces make no edge map; the text does not define what these words are for them
+    length = -(-cells // 32) if model.separates_surfaces(fill_mode) or case.get("edges") else 0
     arrays["edges"] = get_words(case, "edges", where, length)
     edges = model.edge_bits(arrays["edges"], cells) if length else None
     galpixels, winners, counts = model.fill(
-        engine, rung, get_int(case, "reach", where), edges, model.unpack_map(arrays["front"], record, cells),
+        engine, fill_mode, get_int(case, "reach", where), edges, model.unpack_map(arrays["front"], record, cells),
         model.unpack_map(arrays["resolved"], record, cells), arrays["winners"])
     compare_map("map", arrays["map"], galpixels, engine, where, differences)
     compare_numbers("winner after", arrays["winners_after"], winners, where, differences)
@@ -296,7 +296,7 @@ def check_frame(case, where, differences, manifest_hashes):
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
     compare_record(case, record, where, differences)
     rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
-    rung = get_choice(case, "rung", model.RUNGS, where)
+    fill_mode = get_choice(case, "rung", model.FILL_MODES, where)
     reach, edge_threshold = get_int(case, "reach", where), get_int(case, "threshold", where)
     n = get_int(case, "frame", where)
     arrays = {"front": get_words(case, "front", where, record.words * cells)}
@@ -308,7 +308,7 @@ def check_frame(case, where, differences, manifest_hashes):
     for number, entry in enumerate(frames, 1):
         here = f"{where}, frame {number}"
         expected = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
-        galpixels, n, counts = model.frame(engine, galpixels, n, rounding, rung, reach, edge_threshold)
+        galpixels, n, counts = model.frame(engine, galpixels, n, rounding, fill_mode, reach, edge_threshold)
         got = compare_map("map", expected, galpixels, engine, here, differences)
         compare_counts(entry, counts, here, differences)
         digest = model.frame_hash(got)
@@ -353,7 +353,7 @@ def check_layers(case, where, differences):
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
     compare_record(case, record, where, differences)
     rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
-    rung = get_choice(case, "rung", model.RUNGS, where)
+    fill_mode = get_choice(case, "rung", model.FILL_MODES, where)
     reach, edge_threshold = get_int(case, "reach", where), get_int(case, "threshold", where)
     n = get_int(case, "frame", where)
     arrays, layers = {}, []
@@ -366,7 +366,7 @@ def check_layers(case, where, differences):
         stored = displacements = None
         if length:
             stored, displacements = galpixels, [model.displacement_of(word) for word in places]
-            galpixels, _ = model.draw_anchored(engine, stored, displacements)
+            galpixels, _ = model.draw_stationary(engine, stored, displacements)
         layers.append(model.Layer(galpixels, stored, displacements, get(entry, "winners", bool, here),
                                   get(entry, "edges", bool, here)))
     numbers = 0
@@ -384,7 +384,7 @@ def check_layers(case, where, differences):
     compare_shown(get(case, "first", dict, where), 0, f"{where}, at first")
     for key, entry in enumerate(get(case, "frames", list, where), 1):
         here = f"{where}, frame {key}"
-        layers, n, of, all_counts = model.frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold)
+        layers, n, of, all_counts = model.frame_of_layers(engine, layers, n, rounding, fill_mode, reach, edge_threshold)
         compare_shown(entry, key, here)
         expected_counts = get(entry, "counts", list, here)
         if len(expected_counts) != len(layers):
@@ -429,8 +429,8 @@ def check_objects(case, where, differences):
         galpixels, counts = model.enter_object(engine, galpixels, rendering, rounding, n)
         expected = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
         compare_map("map", expected, galpixels, engine, here, differences)
-        told = get(entry, "grafted", dict, here)
-        compare_numbers("count", [get_int(told, name, here) for name in model.GRAFTED],
+        expected = get(entry, "grafted", dict, here)
+        compare_numbers("count", [get_int(expected, name, here) for name in model.GRAFTED],
                         [counts[name] for name in model.GRAFTED], here, differences)
         numbers += len(expected) + len(model.GRAFTED)
     return Checked(0, numbers), arrays
@@ -449,12 +449,12 @@ def check_disocclusion(case, where, differences):
     marked, spread, mask, counts = model.disocclusion(engine, reach, model.unpack_map(arrays["front"], record, cells))
     for name, got in (("marked", marked), ("spread", spread), ("mask", mask)):
         compare_numbers(name, arrays[name], got, where, differences)
-    told = get(case, "counts", dict, where)
-    if set(told) != set(model.DISOCCLUSION_COUNTS):
-        differences.add(f"{where}: the counts are named {sorted(told)}")
+    expected = get(case, "counts", dict, where)
+    if set(expected) != set(model.DISOCCLUSION_COUNTS):
+        differences.add(f"{where}: the counts are named {sorted(expected)}")
     for name in model.DISOCCLUSION_COUNTS:
-        if get_int(told, name, where) != counts[name]:
-            differences.add(f"{where}, count {name}: expected {told[name]}, got {counts[name]}")
+        if get_int(expected, name, where) != counts[name]:
+            differences.add(f"{where}, count {name}: expected {expected[name]}, got {counts[name]}")
     return Checked(0, 2 * cells + len(mask) + len(counts)), arrays
 
 

@@ -1,4 +1,4 @@
-"""A second implementation of the galpixmap, written from spec.md alone, to be read beside it.
+"""A second implementation of the galpixmap, written from spec.md alone, to be read with it.
 
 One section of the spec after another; the number of the section stands in each docstring. It is meant to be plain, not
 quick. A galpixel is a dict of the 14 fields of section 3 (an absent field is there, and is 0); it is never changed in
@@ -138,10 +138,10 @@ def check_layout(budget, layout):
     if layout.luminosity:
         require(budget.luminosity_int + budget.luminosity_frac <= 30, "luminosity too wide")
     require(sum(widths.values()) <= 256, "the fields together have more than 256 bits")
-    for lane in ("velocity", "acceleration", "depth_motion", "luminosity"):
-        reached[f"3 {lane} lane" if getattr(layout, lane) else f"3 no {lane} lane"] += 1
-    reached["3 depth lane" if layout.depth_bits else "3 no depth lane"] += 1
-    reached["3 tag lane" if layout.tag_bits else "3 no tag lane"] += 1
+    for field in ("velocity", "acceleration", "depth_motion", "luminosity"):
+        reached[f"3 {field} field" if getattr(layout, field) else f"3 no {field} field"] += 1
+    reached["3 depth field" if layout.depth_bits else "3 no depth field"] += 1
+    reached["3 tag field" if layout.tag_bits else "3 no tag field"] += 1
     reached[f"9 format {layout.colour}"] += 1
 
 
@@ -343,7 +343,7 @@ def threshold(rounding, down, n):
 def step(r, v, a, shifts, thresh, velocity_bits, acceleration_lane):
     """Section 5, step: (r', v', saturated); saturated: the end at which the velocity was clamped (-1, 1), or 0."""
     if not acceleration_lane:
-        reached["5 step without acceleration lane"] += 1
+        reached["5 step without acceleration field"] += 1
         a = 0
     elif shifts.acceleration_up:
         reached["5 step, acceleration_up > 0"] += 1
@@ -499,13 +499,13 @@ def check_grid(grid):
 
 
 def in_display(grid, column, row):
-    """Section 6: whether a cell of the map is between the wings."""
+    """Section 6: whether a cell of the map is inside the overscan margin."""
     return 0 <= column - grid.left < grid.width and 0 <= row - grid.top < grid.height
 
 
 # --- 7. Propagation and resolution -----------------------------------------------------------------------------------
 
-NOBODY = (1 << 32) - 1
+NO_WINNER = (1 << 32) - 1
 
 Arrival = namedtuple("Arrival", "source cell galpixel")     # cell is None if it is lost
 
@@ -537,7 +537,7 @@ def thresholds_of(engine, rounding, n):
     """Section 5: the thresholds of a frame, one for each component."""
     # only for components that are carried, so that a rule counts as reached only where it has an effect
     carried = (engine.layout.velocity, engine.layout.velocity, engine.layout.depth_motion)
-    return [threshold(rounding, shifts.down, n) if lane else None for shifts, lane in zip(engine.shifts, carried)]
+    return [threshold(rounding, shifts.down, n) if field else None for shifts, field in zip(engine.shifts, carried)]
 
 
 def propagate(engine, front, rounding, n):
@@ -583,7 +583,7 @@ def resolve(arrivals, cells):
         if arrival is None:
             reached["7 hole"] += 1
             back.append(empty_galpixel())
-            winners.append(NOBODY)
+            winners.append(NO_WINNER)
         else:
             back.append(arrival.galpixel)
             winners.append(arrival.source)
@@ -710,22 +710,22 @@ def shown_rgb(colour, format_name):
 
 # --- 10. Holes -------------------------------------------------------------------------------------------------------
 
-RUNGS = ("none", "hold", "debris", "bullet", "galdebris", "extend")
+FILL_MODES = ("none", "hold", "debris", "bullet", "galdebris", "extend")
 FILLED = 1 << 31
 HELD_CLASS = {"bullet": JUST_UNOBSCURED, "debris": DEBRIS}
 MEAN_FIELDS = ("depth", "offset_x", "offset_y", "velocity_x", "acceleration_x", "velocity_y", "acceleration_y",
                "velocity_depth", "acceleration_depth", "luminosity_rate")
 
 
-def tells_surfaces_apart(rung):
-    """Section 10: the last three rungs."""
-    return rung in ("bullet", "galdebris", "extend")
+def separates_surfaces(fill_mode):
+    """Section 10: the last three fill modes."""
+    return fill_mode in ("bullet", "galdebris", "extend")
 
 
-def rounds_of(rung, reach):
+def rounds_of(fill_mode, reach):
     """Section 10: K."""
-    if not tells_surfaces_apart(rung):
-        reached["10 K = 1 for the rung"] += 1
+    if not separates_surfaces(fill_mode):
+        reached["10 K = 1 for the fill mode"] += 1
         return 1
     reached["10 reach below 1" if reach < 1 else "10 reach above 16" if reach > 16 else "10 reach as it is"] += 1
     return clamp(reach, 1, 16)
@@ -878,43 +878,43 @@ def extended(back, grid, cell, before):
     return {**chosen, "class": JUST_UNOBSCURED}
 
 
-def last_resort(engine, rung, back, cell, before):
+def last_resort(engine, fill_mode, back, cell, before):
     """Section 10, last round: (galpixel, name of its count) of a hole that is no bullet hole."""
     result = empty_galpixel()
-    if rung == "none":
-        reached["10 rung none"] += 1
+    if fill_mode == "none":
+        reached["10 fill mode none"] += 1
         return result, "empty"
     known = before["class"] != EMPTY
-    if rung == "hold" or not known:
-        reached[f"10 rung {rung}, {'known' if known else 'not known'}"
+    if fill_mode == "hold" or not known:
+        reached[f"10 fill mode {fill_mode}, {'known' if known else 'not known'}"
                 + (f", class {before['class']}" if known else "")] += 1
         result["colour"] = before["colour"]
         return result, "empty"
-    reached[f"10 rung {rung}, known, class {before['class']}"] += 1
-    if rung == "extend":
+    reached[f"10 fill mode {fill_mode}, known, class {before['class']}"] += 1
+    if fill_mode == "extend":
         return extended(back, engine.grid, cell, before), "galdebris"
-    if rung == "galdebris":
+    if fill_mode == "galdebris":
         return {**before, "class": JUST_UNOBSCURED}, "galdebris"
     result["colour"] = before["colour"]
-    result["class"] = HELD_CLASS[rung]
+    result["class"] = HELD_CLASS[fill_mode]
     result["depth"] = (1 << engine.widths["depth"]) - 1
     return result, "debris"
 
 
-def fill(engine, rung, reach, edges, front, resolved, resolved_winners, foreign=()):
+def fill(engine, fill_mode, reach, edges, front, resolved, resolved_winners, foreign=()):
     """Section 10: (map, winners, counts of holes and of what they became). `edges`: one truth value a cell, or None.
 
     Section 16: `foreign` cells are no holes, and others may be left as holes.
     """
     back, winners = list(resolved), list(resolved_winners)
-    holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY and cell not in foreign]
+    holes = [cell for cell, winner in enumerate(winners) if winner == NO_WINNER and cell not in foreign]
     counts = {"holes": len(holes), "bullets": 0, "debris": 0, "galdebris": 0, "empty": 0}
-    rounds = rounds_of(rung, reach)
+    rounds = rounds_of(fill_mode, reach)
     for k in range(rounds):
         decisions = []
         for cell in holes:
             galpixel = None
-            if tells_surfaces_apart(rung):
+            if separates_surfaces(fill_mode):
                 galpixel = bullet_hole(engine, back, winners, edges, cell, k, foreign)
             if galpixel is not None:
                 reached["10 bullet hole in round 0" if k == 0 else "10 bullet hole in a later round"] += 1
@@ -923,8 +923,8 @@ def fill(engine, rung, reach, edges, front, resolved, resolved_winners, foreign=
                 decisions.append((cell, galpixel, FILLED + k))
                 counts["bullets"] += 1
             elif k == rounds - 1:
-                galpixel, name = last_resort(engine, rung, back, cell, front[cell])
-                decisions.append((cell, galpixel, NOBODY))
+                galpixel, name = last_resort(engine, fill_mode, back, cell, front[cell])
+                decisions.append((cell, galpixel, NO_WINNER))
                 counts[name] += 1
             else:
                 reached["10 hole left for the next round"] += 1
@@ -940,11 +940,11 @@ def fill(engine, rung, reach, edges, front, resolved, resolved_winners, foreign=
 COUNTS = ("moved", "lost", "collided", "saturated", "edges", "holes", "bullets", "debris", "galdebris", "empty")
 
 
-def frame(engine, front, n, rounding, rung, reach, edge_threshold, with_edges=True):
+def frame(engine, front, n, rounding, fill_mode, reach, edge_threshold, with_edges=True):
     """Section 11: (next front map, next frame counter, counts)."""
     counts = dict.fromkeys(COUNTS, 0)
     edges = None
-    if tells_surfaces_apart(rung) and with_edges:
+    if separates_surfaces(fill_mode) and with_edges:
         reached["11 edge map made"] += 1
         edges = edge_map(front, engine.grid, edge_threshold)
         counts["edges"] = sum(edges)
@@ -953,7 +953,7 @@ def frame(engine, front, n, rounding, rung, reach, edge_threshold, with_edges=Tr
     arrivals, counts["saturated"] = propagate(engine, front, rounding, n)
     back, winners, resolved_counts = resolve(arrivals, len(front))
     counts.update(resolved_counts)
-    back, winners, fill_counts = fill(engine, rung, reach, edges, front, back, winners)
+    back, winners, fill_counts = fill(engine, fill_mode, reach, edges, front, back, winners)
     counts.update(fill_counts)
     if n == (1 << 32) - 1:
         reached["11 frame counter wraps"] += 1
@@ -984,12 +984,12 @@ def load_fraction_bits(engine, name):
         return engine.widths["depth"]
     if name == "luminosity_rate":
         return budget.luminosity_frac - (8 - FORMATS[layout.colour].narrowest)
-    lane, component_name = name.split("_")
+    field, component_name = name.split("_")
     number = COMPONENTS.index(component_name)
     component = budget.components[number]
-    if lane == "offset":
+    if field == "offset":
         return component.position_frac
-    frac = component.velocity_frac if lane == "velocity" else component.acceleration_frac
+    frac = component.velocity_frac if field == "velocity" else component.acceleration_frac
     if component_name == "depth":
         frac += engine.widths["depth"] - engine.position_frac[2]
     return frac
@@ -1281,13 +1281,13 @@ def push(fine, coarse, k, limit):
 
 
 def inpaint(engine, inpainting, mask, before, edges, thresholds, after):
-    """Section 14: the map after a frame of rung extend, inpainted.
+    """Section 14: the map after a frame of fill mode extend, inpainted.
 
     `before`: the map before the frame, `edges`: its edge map or None; `thresholds`: of the frame, of each component.
     """
     width = engine.widths["depth"]
     down = max(0, width - 25)
-    reached["14 down > 0" if down else "14 down 0" if width else "14 no depth lane"] += 1
+    reached["14 down > 0" if down else "14 down 0" if width else "14 no depth field"] += 1
     if inpainting.background:
         reached["14 depth of the background"] += 1
         after = deepen(engine, before, edges, thresholds, after)
@@ -1325,7 +1325,7 @@ def inpaint(engine, inpainting, mask, before, edges, thresholds, after):
 # --- 16. Layers ------------------------------------------------------------------------------------------------------
 
 Layer = namedtuple("Layer", "own stored displacements has_winners has_edges")
-"""A layer: its own galpixels, one a cell; of an anchored one also what is stored and [dx, dy] a cell, else None."""
+"""A layer: its own galpixels, one per cell; if it is a stationary-source layer what is stored, and [dx, dy] per cell."""
 
 
 def displacement_of(word):
@@ -1364,8 +1364,8 @@ def shown_map(layers, numbers):
     return [layers[number].own[cell] for cell, number in enumerate(numbers)]
 
 
-def draw_anchored(engine, stored, displacements):
-    """Section 16: (drawn map, counts) of an anchored layer."""
+def draw_stationary(engine, stored, displacements):
+    """Section 16: (drawn map, counts) of a stationary-source layer."""
     arrivals = []
     for source, galpixel in enumerate(stored):
         if galpixel["class"] != EMPTY:
@@ -1373,14 +1373,14 @@ def draw_anchored(engine, stored, displacements):
             arrivals.append(Arrival(source, target_cell(engine.grid, source, right, down), galpixel))
     drawn, _, counts = resolve(arrivals, len(stored))
     if counts["lost"]:
-        reached["16 anchored: lost, but stored"] += 1
+        reached["16 stationary-source: lost, but stored"] += 1
     if counts["collided"]:
-        reached["16 anchored: discarded, but stored"] += 1
+        reached["16 stationary-source: discarded, but stored"] += 1
     return drawn, counts
 
 
-def step_anchored(engine, layer, thresholds):
-    """Section 16: (layer, counts) of an anchored layer one frame later."""
+def step_stationary(engine, layer, thresholds):
+    """Section 16: (layer, counts) of a stationary-source layer one frame later."""
     stored, displacements, saturated = [], [], 0
     for galpixel, place in zip(layer.stored, layer.displacements):
         if galpixel["class"] == EMPTY:
@@ -1393,25 +1393,25 @@ def step_anchored(engine, layer, thresholds):
         moved = [place[0] + right, place[1] + down]
         clamped = [clamp(cells, -32768, 32767) for cells in moved]
         if clamped != moved:
-            reached["16 anchored: displacement clamped"] += 1
+            reached["16 stationary-source: displacement clamped"] += 1
         displacements.append(clamped)
-    drawn, counts = draw_anchored(engine, stored, displacements)
+    drawn, counts = draw_stationary(engine, stored, displacements)
     return layer._replace(own=drawn, stored=stored, displacements=displacements), {**counts, "saturated": saturated}
 
 
-def step_layer(engine, layer, n, rounding, rung, reach, edge_threshold, is_base):
-    """Section 16, steps 2 and 3: (new own map, winners, edges or None, counts) of a layer that is not anchored."""
+def step_layer(engine, layer, n, rounding, fill_mode, reach, edge_threshold, is_base):
+    """Section 16, steps 2 and 3: (new own map, winners, edges or None, counts) of a layer whose galpixels move."""
     counts = dict.fromkeys(COUNTS, 0)
     edges = None
-    if tells_surfaces_apart(rung) and layer.has_edges:
+    if separates_surfaces(fill_mode) and layer.has_edges:
         edges = edge_map(layer.own, engine.grid, edge_threshold)
         counts["edges"] = sum(edges)
     arrivals, counts["saturated"] = propagate(engine, layer.own, rounding, n)
     own, winners, resolved_counts = resolve(arrivals, len(layer.own))
     counts.update(resolved_counts)
     if not is_base and edges is not None and layer.has_winners:
-        for k in range(rounds_of(rung, reach)):
-            holes = [cell for cell, winner in enumerate(winners) if winner == NOBODY]
+        for k in range(rounds_of(fill_mode, reach)):
+            holes = [cell for cell, winner in enumerate(winners) if winner == NO_WINNER]
             filled = [(cell, bullet_hole(engine, own, winners, edges, cell, k)) for cell in holes]
             for cell, galpixel in filled:
                 if galpixel is None:
@@ -1426,7 +1426,7 @@ def step_layer(engine, layer, n, rounding, rung, reach, edge_threshold, is_base)
     return own, winners, edges, counts
 
 
-def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
+def frame_of_layers(engine, layers, n, rounding, fill_mode, reach, edge_threshold):
     """Section 16: (layers, next frame counter, numbers of the layers shown, counts a layer) one frame later."""
     before = shown_map(layers, shown_layers(layers))
     thresholds = thresholds_of(engine, rounding, n)
@@ -1435,10 +1435,10 @@ def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
     for number, layer in enumerate(layers):
         counts = dict.fromkeys(COUNTS, 0)
         if layer.stored is not None:
-            layer, drawn_counts = step_anchored(engine, layer, thresholds)
+            layer, drawn_counts = step_stationary(engine, layer, thresholds)
             counts.update(drawn_counts)
         else:
-            own, winners, edges, counts = step_layer(engine, layer, n, rounding, rung, reach, edge_threshold,
+            own, winners, edges, counts = step_layer(engine, layer, n, rounding, fill_mode, reach, edge_threshold,
                                                      number == 0)
             layer = layer._replace(own=own)
             if number == 0:
@@ -1447,9 +1447,9 @@ def frame_of_layers(engine, layers, n, rounding, rung, reach, edge_threshold):
         all_counts.append(counts)
     numbers = shown_layers(moved)
     foreign = frozenset(cell for cell, number in enumerate(numbers) if number)
-    if any(base_winners[cell] == NOBODY for cell in foreign):
+    if any(base_winners[cell] == NO_WINNER for cell in foreign):
         reached["16 hole of the base under another layer"] += 1
-    filled, _, fill_counts = fill(engine, rung, reach, base_edges, before, shown_map(moved, numbers), base_winners,
+    filled, _, fill_counts = fill(engine, fill_mode, reach, base_edges, before, shown_map(moved, numbers), base_winners,
                                   foreign)
     all_counts[0].update(fill_counts)
     own = [moved[0].own[cell] if cell in foreign else filled[cell] for cell in range(len(filled))]
@@ -1468,7 +1468,7 @@ DISOCCLUSION_COUNTS = ("edges", "endless", "covered")
 LEFT, RIGHT, ABOVE, BELOW = range(4)
 SIDES = ("left", "right", "above", "below")
 OPPOSITE = (RIGHT, LEFT, BELOW, ABOVE)
-ENDLESS = 127
+SATURATED = 127
 BEYOND = Body((1 << 31) - 1, ((0, 0, 0),) * 2)
 
 
@@ -1586,11 +1586,11 @@ def enlarge(extents, sides):
 
 
 def mark_disocclusion(engine, reach, front):
-    """Section 17, pairs and mark: (extents of each cell, sides to which each is shut, counts)."""
+    """Section 17, pairs and mark: (extents of each cell, sides to which each is blocked, counts)."""
     grid = engine.grid
     bodies = [body_of(engine, galpixel) for galpixel in front]
     extents = [[0] * 4 for _ in front]
-    shut = [[False] * 4 for _ in front]
+    blocked = [[False] * 4 for _ in front]
     counts = dict.fromkeys(DISOCCLUSION_COUNTS, 0)
     for along, first, second in pairs_of(grid, reach.border):
         across = 1 - along
@@ -1606,10 +1606,10 @@ def mark_disocclusion(engine, reach, front):
         before, after = (LEFT, RIGHT) if along == 0 else (ABOVE, BELOW)
         up, down = (ABOVE, BELOW) if along == 0 else (LEFT, RIGHT)
         if gap > 0 and (not same or reach.tears and parts):
-            given = min(gap, ENDLESS), min(onwards + 1, ENDLESS), min(backwards + 1, ENDLESS)
+            given = min(gap, SATURATED), min(onwards + 1, SATURATED), min(backwards + 1, SATURATED)
             counts["edges"] += 1
-            if ENDLESS in given:
-                reached[f"17 endless {('along', 'onwards', 'backwards')[given.index(ENDLESS)]}"] += 1
+            if SATURATED in given:
+                reached[f"17 saturated {('along', 'onwards', 'backwards')[given.index(SATURATED)]}"] += 1
                 counts["endless"] += 1
             if None in (first, second):
                 reached[f"17 opens at the border, {SIDES[before if first is None else after]}"] += 1
@@ -1622,24 +1622,24 @@ def mark_disocclusion(engine, reach, front):
             reached["17 of one surface, parts" if parts else "17 of one surface, does not part"] += 1
         if reach.through or same or farther == 0:
             if not reach.through and not same:
-                reached["17 equal keys shut nothing"] += 1
+                reached["17 equal keys block nothing"] += 1
             continue
         if max(gap, closer, onwards, backwards) < 2:
-            reached["17 not far enough to be shut"] += 1
+            reached["17 not far enough to be blocked"] += 1
             continue
         far = [name for name, cells in zip(("gap", "closer", "onwards", "backwards"), (gap, closer, onwards, backwards))
                if cells >= 2]
         if len(far) == 1:
-            reached[f"17 shut by {far[0]} alone"] += 1
+            reached[f"17 blocked by {far[0]} alone"] += 1
         cell, side = (second, after) if farther > 0 else (first, before)
         if cell is not None:
-            reached[f"17 shut to {SIDES[side]}"] += 1
-            shut[cell][side] = True
+            reached[f"17 blocked to {SIDES[side]}"] += 1
+            blocked[cell][side] = True
     for cell, galpixel in enumerate(front):
         if galpixel["class"] == EMPTY:
             reached["17 class 3 covers itself"] += 1
             extents[cell] = [max(1, extent) for extent in extents[cell]]
-    return extents, shut, counts
+    return extents, blocked, counts
 
 
 def scan(grid, side):
@@ -1651,7 +1651,7 @@ def scan(grid, side):
             yield before, cell
 
 
-def spread_disocclusion(grid, extents, shut):
+def spread_disocclusion(grid, extents, blocked):
     """Section 17, spread: extents of each cell; all of them are open."""
     spread = [list(of) for of in extents]
     for side in (RIGHT, LEFT, BELOW, ABOVE):
@@ -1662,17 +1662,17 @@ def spread_disocclusion(grid, extents, shut):
                 if source[side]:
                     reached[f"17 spread {SIDES[side]} ends"] += 1
                 continue
-            if shut[cell][side]:
-                reached[f"17 spread {SIDES[side]}: shut"] += 1
+            if blocked[cell][side]:
+                reached[f"17 spread {SIDES[side]}: blocked"] += 1
                 continue
-            if any(shut[cell]):
-                reached["17 spread: shut to another side"] += 1
+            if any(blocked[cell]):
+                reached["17 spread: blocked to another side"] += 1
             reached[f"17 spread {SIDES[side]} goes on"] += 1
-            if source[side] == ENDLESS:
+            if source[side] == SATURATED:
                 reached["17 spread: 127 stays"] += 1
             for of in range(4):
                 carried = source[of]
-                if of == side and carried < ENDLESS:
+                if of == side and carried < SATURATED:
                     carried -= 1
                 elif of == opposite:
                     carried = 1
@@ -1682,21 +1682,21 @@ def spread_disocclusion(grid, extents, shut):
     return spread
 
 
-def extent_words(extents, shut):
+def extent_words(extents, blocked):
     """Section 17, words."""
     return [sum((extent | closed << 7) << 8 * side for side, (extent, closed) in enumerate(zip(of, closed_of)))
-            for of, closed_of in zip(extents, shut)]
+            for of, closed_of in zip(extents, blocked)]
 
 
 def disocclusion(engine, reach, front):
     """Section 17: (marked words, spread words, words of the mask, counts)."""
-    extents, shut, counts = mark_disocclusion(engine, reach, front)
-    spread = spread_disocclusion(engine.grid, extents, shut)
+    extents, blocked, counts = mark_disocclusion(engine, reach, front)
+    spread = spread_disocclusion(engine.grid, extents, blocked)
     words = extent_words(spread, [[False] * 4] * len(spread))
     covered = [word != 0 for word in words]
     counts["covered"] = sum(covered)
     reached["17 all covered" if all(covered) else "17 none covered" if not any(covered) else "17 some covered"] += 1
-    return extent_words(extents, shut), words, edge_words(covered), counts
+    return extent_words(extents, blocked), words, edge_words(covered), counts
 
 
 # --- 18. Grafting an object ------------------------------------------------------------------------------------------
@@ -1783,13 +1783,13 @@ def enter_object(engine, galpixels, rendering, rounding, n):
 def rule_names():
     """All names that the kinds of vector files can reach."""
     names = []
-    for lane in ("depth", "velocity", "acceleration", "depth_motion", "luminosity", "tag"):
-        names += [f"3 {lane} lane", f"3 no {lane} lane"]
+    for field in ("depth", "velocity", "acceleration", "depth_motion", "luminosity", "tag"):
+        names += [f"3 {field} field", f"3 no {field} field"]
     names += ["4 first fit", "4 end to end", "4 field spills"]
     names += ["5 threshold 0: no bits dropped", "5 threshold truncate", "5 threshold nearest",
               "5 threshold low-discrepancy", "5 threshold searched, no table"]
     names += [f"5 threshold searched, down {down}" for down in SEARCHED]
-    names += ["5 step without acceleration lane", "5 step, acceleration_up > 0", "5 step, acceleration_up 0",
+    names += ["5 step without acceleration field", "5 step, acceleration_up > 0", "5 step, acceleration_up 0",
               "5 step, bits dropped", "5 step, up > 0", "5 step, neither down nor up",
               "5 velocity clamped at the lowest", "5 velocity clamped at the highest"]
     names += [f"5 step, threshold rounds up, down {down}" for down in (*SEARCHED, "more")]
@@ -1813,7 +1813,7 @@ def rule_names():
     names += ["8 edge by several reasons", "8 no edge", "8 difference equal to the threshold",
               "8 threshold above 2^31 - 1", "8 last word not full"]
     names += [f"9 format {name}" for name in FORMATS]
-    names += ["10 K = 1 for the rung", "10 reach below 1", "10 reach above 16", "10 reach as it is",
+    names += ["10 K = 1 for the fill mode", "10 reach below 1", "10 reach above 16", "10 reach as it is",
               "10 not inside: outside of the map", "10 not inside: class", "10 not inside: edge",
               "10 inside: no edge", "10 inside: filled in an earlier round", "10 vacant: outside of the map",
               "10 vacant: hole", "10 not vacant"]
@@ -1827,21 +1827,21 @@ def rule_names():
               "10 mean of four, a quarter up or down"]
     names += ["10 bullet hole in round 0", "10 bullet hole in a later round", "10 bullet hole in the last round",
               "10 hole left for the next round"]
-    names.append("10 rung none")
-    for rung in RUNGS[1:]:
-        names += [f"10 rung {rung}, known, class {klass}" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
-        names.append(f"10 rung {rung}, not known")
+    names.append("10 fill mode none")
+    for fill_mode in FILL_MODES[1:]:
+        names += [f"10 fill mode {fill_mode}, known, class {klass}" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]
+        names.append(f"10 fill mode {fill_mode}, not known")
     names += ["10 extend: left is farther", "10 extend: right is farther", "10 extend: equal depths, left",
               "10 extend: only left", "10 extend: only right", "10 extend: row empty, before"]
     names += ["11 edge map made", "11 no edge map", "11 not inside: no edge map", "11 frame counter wraps"]
     names += ["16 not inside: foreign", "16 not vacant: foreign", "16 shown: nothing, the base's cell",
               "16 shown by class", "16 shown by depth", "16 shown by layer", "16 shown: the base",
-              "16 shown: another layer", "16 shown: where the base has nothing", "16 anchored: lost, but stored",
-              "16 anchored: discarded, but stored", "16 anchored: displacement clamped",
+              "16 shown: another layer", "16 shown: where the base has nothing",
+              "16 stationary-source: lost, but stored", "16 stationary-source: discarded, but stored", "16 stationary-source: displacement clamped",
               "16 hole stays in its layer", "16 bullet hole in another layer", "16 layer whose holes all stay",
               "16 hole of the base under another layer"]
     names += ["14 no mask", "14 mask ends before the cell", "14 class 1, bit set", "14 class 1, bit not set",
-              "14 bit of a cell of another class", "14 no depth lane", "14 down 0", "14 down > 0",
+              "14 bit of a cell of another class", "14 no depth field", "14 down 0", "14 down > 0",
               "14 depth of the background", "14 no depth of the background", "14 quad without an edge map",
               "14 no quad: no edge", "14 no quad: a corner is empty", "14 quad, several edges"]
     names += [f"14 quad, edge at corner {corner} alone" for corner in range(4)]
@@ -1872,17 +1872,17 @@ def rule_names():
               "17 velocity clamped at the highest", "17 farthest ahead on the way", "17 farthest ahead at last",
               "17 farthest ahead at first", "17 ahead, up > 0", "17 ahead, up 0", "17 part just so", "17 do not part",
               "17 ahead by less than nothing", "17 ahead by whole cells", "17 ahead rounded up"]
-    names += [f"17 slack{zero} {lane} acceleration" for zero in ("", " 0") for lane in ("with", "without")]
+    names += [f"17 slack{zero} {field} acceleration" for zero in ("", " 0") for field in ("with", "without")]
     names += ["17 not of one surface, just so", "17 of one surface, parts", "17 of one surface, does not part"]
     names += [f"17 opens along {along}, {how}" for along in "xy" for how in ("tears", "farther", "nearer", "equal")]
     names += [f"17 opens at the border, {side}" for side in SIDES]
-    names += [f"17 endless {how}" for how in ("along", "onwards", "backwards")]
-    names += ["17 equal keys shut nothing", "17 not far enough to be shut"]
-    names += [f"17 shut by {how} alone" for how in ("gap", "closer", "onwards", "backwards")]
-    names += [f"17 shut to {side}" for side in SIDES]
+    names += [f"17 saturated {how}" for how in ("along", "onwards", "backwards")]
+    names += ["17 equal keys block nothing", "17 not far enough to be blocked"]
+    names += [f"17 blocked by {how} alone" for how in ("gap", "closer", "onwards", "backwards")]
+    names += [f"17 blocked to {side}" for side in SIDES]
     names += ["17 extent of several pairs", "17 class 3 covers itself"]
-    names += [f"17 spread {side}{what}" for side in SIDES for what in (" goes on", " ends", ": shut")]
-    names += ["17 spread: shut to another side", "17 spread: 127 stays", "17 spread: its own is larger"]
+    names += [f"17 spread {side}{what}" for side in SIDES for what in (" goes on", " ends", ": blocked")]
+    names += ["17 spread: blocked to another side", "17 spread: 127 stays", "17 spread: its own is larger"]
     names += ["17 all covered", "17 some covered", "17 none covered"]
     names += ["18 empty stays, whatever its tag", "18 another tag stays"]
     names += [f"18 class {klass} of the tag is removed" for klass in (GALPIXEL, JUST_UNOBSCURED, DEBRIS)]

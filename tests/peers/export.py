@@ -22,12 +22,12 @@ import numpy as np
 # The fills of galpix in the order of the tables; those of an export that are not named here come after them.
 FILLS = ["none", "hold", "debris", "bullet", "galdebris", "extend", "push-pull-classic", "push-pull", "metamer"]
 
-# The fills that `peers.py` writes beside them.
+# The fills that `peers.py` adds.
 PEERS = ["telea", "navier-stokes", "gortler"]
 
 GIVEN = {"truth", "mask", "warped"}
 
-# What an export may hold beside its fills.
+# What an export may hold besides its fills.
 NO_FILLS = GIVEN | {"mask_all"}
 
 
@@ -70,7 +70,7 @@ class Frame:
     def picture(self, name):
         picture = read_rgb(self.folder / f"{name}.png")
         if picture.shape != self.truth.shape:
-            refuse(f"{self.folder / name}.png has another size than truth.png beside it.")
+            refuse(f"{self.folder / name}.png has another size than truth.png in its folder.")
         return picture
 
     def scored(self, name):
@@ -92,7 +92,7 @@ class Source:
             unknown = read_mask(everything) if everything.is_file() else mask
             for name, cells in (("mask.png", mask), ("mask_all.png", unknown)):
                 if truth.shape[:2] != cells.shape:
-                    refuse(f"{folder / name} has another size than truth.png beside it.")
+                    refuse(f"{folder / name} has another size than truth.png in its folder.")
             yield Frame(folder, truth, mask, unknown)
 
 

@@ -55,9 +55,9 @@ class Lpips:
         self.convolutions, self.heads = read_weights(archive)
 
     def features(self, picture):
-        """The five layers of a picture (height x width x 3 bytes), each cell's vector of length 1. At least 32 cells each way."""
+        """The five layers of a picture (height x width x 3 bytes), each cell's vector of length 1. At least 32 cells in each direction."""
         if min(picture.shape[:2]) < 32:
-            refuse(f"LPIPS needs 32 cells each way, and a picture has {picture.shape[1]} x {picture.shape[0]}.")
+            refuse(f"LPIPS needs 32 cells in each direction, and a picture has {picture.shape[1]} x {picture.shape[0]}.")
         plane = (picture.astype(np.float32) / 127.5 - 1 - SHIFT) / SCALE
         layers = []
         for (kernel, bias), (stride, padding, pooled) in zip(self.convolutions, LAYERS):

@@ -2,7 +2,7 @@
 
     python3 peers.py DIR [--sources NAME...] [--frames N] [--json FILE]
 
-Writes `telea.png`, `navier-stokes.png` and `gortler.png` beside the fills of each frame, then prints tables in Markdown: PSNR,
+Writes `telea.png`, `navier-stokes.png` and `gortler.png` next to the fills of each frame, then prints tables in Markdown: PSNR,
 FLIP, local variance and time. Only the disoccluded cells are compared; the README says what each number is.
 """
 

@@ -4,7 +4,7 @@
 
 The mask has 255 where a cell is to be filled, else 0. Without a picture, one of the mask's size is made. Every round runs each peer
 once, in another order, so that a slow moment of the machine does not fall on one of them; the table has the median and the least.
-A copy of 20 bytes a cell stands beside them: what milliseconds are worth depends on the machine, the ratio much less.
+They are compared with a copy of 20 bytes per cell: milliseconds depend on the machine, the ratio much less.
 """
 
 from fillers import gortler, navier_stokes, resized, telea  # first: it asks for one thread

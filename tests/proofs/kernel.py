@@ -112,7 +112,7 @@ def clamp(words, value, low, high):
 
 
 def step(words, component, threshold, r, v, a):
-    """Section 5: every word that the engine computes on the way, by name."""
+    """Section 5: every intermediate word that the engine computes, by name."""
     lifted = words.left(a, component.acceleration_up)
     doubled = words.left(v, 1)
     total = words.add(doubled, lifted)

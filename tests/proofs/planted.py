@@ -59,7 +59,7 @@ def main():
         path = TREE / "galpix-core" / "src" / name
         source = path.read_text()
         if source.count(before) != 1:
-            sys.exit(f"{name} does not hold `{before}` exactly once: mend the list in tests/proofs/planted.py")
+            sys.exit(f"{name} does not hold `{before}` exactly once: correct the list in tests/proofs/planted.py")
         path.write_text(source.replace(before, after))
         passed, output = test()
         path.write_text(source)

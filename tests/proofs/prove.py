@@ -4,7 +4,7 @@
 
 1. Drift: over all velocities and accelerations of the full width, in each of the first `tau_prop` frames, the rounding drift is at
    most the certified bound; and the bound less one is refuted, so that it is tight.
-2. Nothing wraps: over all states of a component, every word on the way through a step is the exact number, and the state after the
+2. Nothing wraps: over all states of a component, every intermediate word of a step is the exact number, and the state after the
    step is within its fields again. By induction nothing wraps in any number of frames.
 3. The kernel that was proved is the engine's: it computes the golden vectors of VECTORS, where given.
 

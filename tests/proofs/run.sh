@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Proofs by machine, beside the exhaustive tests: a solver on the step kernel, and mutants of the passes.
+# Proofs by machine, in addition to the exhaustive tests: a solver on the step kernel, and mutants of the passes.
 #
 #   tests/proofs/run.sh           the solver on all budgets; every mutant of the four stages with cargo-mutants (hours)
 #   tests/proofs/run.sh --quick   the solver on the paper's example; a planted mutant for each stage

@@ -8,14 +8,14 @@
 //!
 //! In every panel `.` is a hole. Colour: a letter, upper case for a galpixel, lower case for debris. Class: `#`
 //! galpixel, `!` just unobscured, `~` debris. Depth: sixteenths of the range, `*` for the far end. Motion: the velocity
-//! in cells a frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the
+//! in cells per frame, see [`MOTIONS`]; `-` is still and `?` anything else. Shown: the letter of the colour that the
 //! display shows, be there a galpixel or not, `_` for black.
 
 use std::fmt;
 
 use galpix_core::{Bits, Class, Controller, Demand, Dynamic, Format, Galpixel, Galpixmap, Layout};
 
-use crate::lent::{Shape, with_controller};
+use crate::memory::{Shape, with_controller};
 use crate::stage::number;
 
 /// What can be seen of a map.
@@ -134,7 +134,7 @@ impl Art {
 pub struct Drawing<'d>(pub &'d [&'d str]);
 
 impl Drawing<'_> {
-    /// Columns and rows.
+    /// Returns the columns and rows.
     #[must_use]
     pub fn shape(&self) -> Shape {
         let width = self.0[0].split_whitespace().next().expect("a panel").len();
@@ -169,14 +169,14 @@ impl Drawing<'_> {
     }
 }
 
-/// The format of drawings: the paper's example.
+/// Returns the format of drawings: the paper's example.
 #[must_use]
 pub fn format() -> Dynamic {
     let bits = Bits::derive(Demand { extent: 1024, recog: 8, prop: 16 }).expect("the paper's example");
     Dynamic::new(bits, Layout::FULL).expect("the paper's layout")
 }
 
-/// Lends a controller whose map shows a drawing on a display without margin.
+/// Runs a closure with a controller whose map shows a drawing on a display without margin.
 pub fn with_drawing<R>(drawing: &[&str], work: impl for<'p> FnOnce(&mut Controller<'p, Dynamic>) -> R) -> R {
     let drawing = Drawing(drawing);
     with_controller(drawing.shape(), format(), None, |controller| {

@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-/// The folder of captures that is shared beside the project, where it is there.
+/// Returns the folder of shared captures next to the project, if it exists.
 #[must_use]
 pub fn shared() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     folder.is_dir().then_some(folder)
 }
 
-/// The manifests below a folder, sorted; without those below a folder `field`, which holds inputs that importers
-/// misread: some of them must be refused.
+/// Returns the manifests below a folder, sorted; without those below a folder `field`, which holds inputs that
+/// importers misread: some of them must be refused.
 ///
 /// Panics if a folder cannot be read.
 #[must_use]

@@ -12,32 +12,32 @@ const FRAC: u32 = 64;
 pub struct Exact(i128);
 
 impl Exact {
-    /// `raw / 2^frac`.
+    /// Returns `raw / 2^frac`.
     #[must_use]
     pub fn of(raw: i64, frac: u32) -> Self {
         Self(i128::from(raw) << (FRAC - frac))
     }
 
-    /// The sum.
+    /// Returns the sum.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self(self.0 + other.0)
     }
 
-    /// The half. Panics if it is no multiple of `2^-64`.
+    /// Returns the half. Panics if it is no multiple of `2^-64`.
     #[must_use]
     pub fn half(self) -> Self {
         assert_eq!(self.0 % 2, 0);
         Self(self.0 / 2)
     }
 
-    /// `floor(self * 2^frac)`.
+    /// Returns `floor(self * 2^frac)`.
     #[must_use]
     pub fn floor(self, frac: u32) -> i64 {
         i64::try_from(self.0.div_euclid(1 << (FRAC - frac))).unwrap()
     }
 
-    /// `self * 2^frac`. Panics if that is no whole number.
+    /// Returns `self * 2^frac`. Panics if that is no whole number.
     #[must_use]
     pub fn whole(self, frac: u32) -> i64 {
         assert_eq!(self.0.rem_euclid(1 << (FRAC - frac)), 0, "{self:?} is no multiple of 2^-{frac}");
@@ -45,7 +45,7 @@ impl Exact {
     }
 }
 
-/// What a frame adds to a position before the bits beyond `2^-frac` are cut off, in steps of `2^-frac`.
+/// Returns what a frame adds to a position before the bits beyond `2^-frac` are cut off, in steps of `2^-frac`.
 ///
 /// The van der Corput sequence is the sum over the bits `b_i` of the frame counter of `b_i / 2^(i+1)`. A searched table
 /// is data: its entry for `dropped` bits, in units of the last of them.
@@ -79,20 +79,20 @@ pub fn velocity(v: Exact, a: Exact, component: &Component) -> i64 {
     v.plus(a).whole(component.velocity_frac)
 }
 
-/// The nearest number that a two's complement field of `bits` bits holds.
+/// Returns the nearest number that a two's complement field of `bits` bits holds.
 #[must_use]
 pub fn saturated(value: i64, bits: u32) -> i64 {
     let end = 1i64 << (bits - 1);
     value.clamp(-end, end - 1)
 }
 
-/// The nearest cell to a position, halves towards +infinity.
+/// Returns the nearest cell to a position, halves towards +infinity.
 #[must_use]
 pub fn nearest_cell(r: Exact) -> i64 {
     r.plus(Exact::of(1, 1)).floor(0)
 }
 
-/// All numbers of a two's complement field of `bits` bits; 0 alone for an absent field.
+/// Returns all numbers of a two's complement field of `bits` bits; 0 alone for an absent field.
 pub fn signed(bits: u32) -> impl Iterator<Item = i64> + Clone {
     let end = if bits == 0 { 0 } else { 1i64 << (bits - 1) };
     -end..end.max(1)

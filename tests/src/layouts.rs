@@ -3,7 +3,7 @@
 
 use galpix_core::{Colour, Layout};
 
-/// Motion in the plane; class and 4 bits of colour beside it.
+/// Motion in the plane, class and 4 bits of colour.
 pub const TINY_PLANE: Layout = Layout { colour: Colour::GRAY4, depth_bits: 0, depth_motion: false, ..Layout::FULL };
 /// Motion in the plane without acceleration.
 pub const TINY_SLIDE: Layout = Layout { acceleration: false, ..TINY_PLANE };
@@ -32,7 +32,7 @@ pub const VELOCITY565_WITHOUT_VELOCITY: Layout = Layout { velocity: false, ..Lay
 /// A z-buffer as deep as a record can have one.
 pub const DEEP: Layout = Layout { colour: Colour::GRAY8, depth_bits: 28, ..Layout::VELOCITY565 };
 
-/// Every built-in layout and those above that a map of the built-in scenes can have.
+/// Returns every built-in layout and those above that a map of the built-in scenes can have.
 #[must_use]
 pub fn every_kind() -> Vec<Layout> {
     vec![

@@ -1,12 +1,12 @@
-//! What the cross-crate tests share: memory to lend, exact reference arithmetic, maps drawn as text, scenes as maps.
+//! What the cross-crate tests share: memory, exact reference arithmetic, maps drawn as text, scenes as maps.
 //!
-//! Nothing here calls the code it is used to check: [`exact`] and [`packed`] say the same things once more, slowly.
+//! Nothing here calls the code it is used to check: [`exact`] and [`packed`] compute the same things again, slowly.
 
 pub mod art;
 pub mod captures;
 pub mod exact;
 pub mod layouts;
-pub mod lent;
+pub mod memory;
 pub mod packed;
 pub mod profiles;
 pub mod random;

@@ -2,7 +2,7 @@
 
 use galpix_core::record::Field;
 
-/// Where each bit of a field is stored, from its highest to its lowest: word and bit in the word.
+/// Returns where each bit of a field is stored, from its highest to its lowest: word and bit in the word.
 pub fn places(field: Field) -> impl Iterator<Item = (usize, u32)> {
     let upper = u32::from(field.bits - field.spill);
     let top = u32::from(field.shift) + upper;
@@ -11,13 +11,13 @@ pub fn places(field: Field) -> impl Iterator<Item = (usize, u32)> {
     high.chain((32 - u32::from(field.spill)..32).rev().map(move |bit| (word + 1, bit)))
 }
 
-/// The field as an unsigned number; 0 if it is absent.
+/// Returns the field as an unsigned number; 0 if it is absent.
 #[must_use]
 pub fn unsigned(field: Field, words: &[u32]) -> i64 {
     places(field).fold(0, |value, (word, bit)| value << 1 | i64::from(words[word] >> bit & 1))
 }
 
-/// The field as a two's complement number; 0 if it is absent.
+/// Returns the field as a two's complement number; 0 if it is absent.
 #[must_use]
 pub fn signed(field: Field, words: &[u32]) -> i64 {
     let value = unsigned(field, words);

@@ -64,12 +64,12 @@ pub const FORMATS: [(&str, Layout, Bits); 15] = [
     ("a picture that does not move", Layout::STILL, PAPER),
 ];
 
-/// The formats of [`FORMATS`], by name.
+/// Returns the formats of [`FORMATS`], by name.
 pub fn formats() -> impl Iterator<Item = (&'static str, Dynamic)> {
     FORMATS.into_iter().map(|(name, layout, bits)| (name, dynamic(layout, bits)))
 }
 
-/// The format of a layout under a budget.
+/// Returns the format of a layout under a budget.
 ///
 /// Panics if it does not fit.
 #[must_use]

@@ -4,13 +4,13 @@ use rand::rngs::SmallRng;
 use rand::seq::SliceRandom;
 use rand::{Rng, RngExt, SeedableRng};
 
-/// A generator that `seed` determines.
+/// Returns a generator that `seed` determines.
 #[must_use]
 pub fn generator(seed: u64) -> SmallRng {
     SmallRng::seed_from_u64(seed)
 }
 
-/// `count` random words.
+/// Returns `count` random words.
 #[must_use]
 pub fn words(seed: u64, count: usize) -> Vec<u32> {
     let mut generator = generator(seed);
@@ -22,7 +22,7 @@ pub fn shuffle<T>(seed: u64, items: &mut [T]) {
     items.shuffle(&mut generator(seed));
 }
 
-/// A number in `0 .. end`.
+/// Returns a number in `0 .. end`.
 pub fn below(generator: &mut impl Rng, end: u32) -> u32 {
     generator.random_range(0..end)
 }

@@ -6,7 +6,7 @@ use galpix_sim::engine::galpixel;
 use galpix_sim::source::scene::{self, Scene};
 use galpix_sim::update::Update;
 
-use crate::lent::{Shape, with_maps, words};
+use crate::memory::{Shape, with_maps, words};
 
 /// The update of a scene at its beginning, and the shape of its maps.
 pub struct Stage {
@@ -18,12 +18,12 @@ pub struct Stage {
     pub shape: Shape,
 }
 
-/// All built-in scenes.
+/// Returns all built-in scenes.
 pub fn all() -> impl Iterator<Item = Stage> {
     scene::all().iter().map(|&scene| {
         let update = scene::update(scene, 0.0);
-        let wings = update.wings;
-        let [left, right, top, bottom] = [wings.left, wings.right, wings.top, wings.bottom].map(|n| n as u32);
+        let margin = update.margin;
+        let [left, right, top, bottom] = [margin.left, margin.right, margin.top, margin.bottom].map(|n| n as u32);
         let shape = Shape {
             width: update.display_width() as u32,
             height: update.display_height() as u32,
@@ -34,7 +34,7 @@ pub fn all() -> impl Iterator<Item = Stage> {
 }
 
 impl Stage {
-    /// The words of the update, each galpixel after `change`, in a format.
+    /// Returns the words of the update, each galpixel after `change`, in a format.
     pub fn content<F: Format>(&self, format: F, change: impl Fn(&mut Galpixel)) -> Vec<u32> {
         with_maps(self.shape, format, None, |mut front, _| {
             self.load(&mut front, change);
@@ -54,7 +54,7 @@ impl Stage {
     }
 }
 
-/// Every fill mode, and a rounding with each: over three turns, every fill mode with every rounding.
+/// Returns every fill mode, and a rounding with each: over three turns, every fill mode with every rounding.
 pub fn settings_in_turn(turn: usize, depth_bits: u8) -> impl Iterator<Item = Settings> {
     (turn..).zip(FillMode::ALL).map(move |(turn, fill_mode)| {
         let rounding = Rounding::ALL[turn % Rounding::ALL.len()];
@@ -64,13 +64,13 @@ pub fn settings_in_turn(turn: usize, depth_bits: u8) -> impl Iterator<Item = Set
     })
 }
 
-/// The settings for a map's own depth.
+/// Returns the settings for a map's own depth.
 #[must_use]
 pub fn settings<F: Format>(map: &Galpixmap<'_, F>) -> Settings {
     Settings::for_depth(u32::from(map.record().depth().bits))
 }
 
-/// A number with units, from a decimal that is a multiple of `2^-32`.
+/// Returns a number with units, from a decimal that is a multiple of `2^-32`.
 #[must_use]
 pub fn number(value: f64) -> I32F32 {
     let number = I32F32::from_num(value);

@@ -24,8 +24,8 @@ use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, Settings, Static
 /// The most by which a picture may take more instructions than another, in parts of the fewest.
 const MOST_SPREAD: f64 = 0.01;
 
-/// The modes of work: whether a frame is made in constant time, and what that is called in tables.
-const MODES: [(bool, &str); 2] = [(false, "skipping"), (true, "constant")];
+/// The modes: whether a frame is made in constant time, and its name in tables.
+const MODES: [(bool, &str); 2] = [(false, "data-dependent"), (true, "constant-time")];
 
 /// What is counted, in this order, and each in the order of [`MODES`] and of [`Picture::ALL`].
 const LAYOUTS: [&str; 8] = [
@@ -36,7 +36,7 @@ const LAYOUTS: [&str; 8] = [
     "Full, a controller's frame after the first",
     "Full, a base alone, likewise",
     "Full, two layers",
-    "Velocity565, two layers and an anchored one",
+    "Velocity565, two layers and a stationary-source one",
 ];
 
 /// Runs a frame whose instructions callgrind counts. Must keep its name, and no generic parameters, for [`COUNTED`].
@@ -48,12 +48,12 @@ fn counted_frame(frame: &mut dyn FnMut() -> Tally) -> Tally {
 /// [`counted_frame`] as callgrind calls it.
 const COUNTED: &str = "constant_time::counted_frame";
 
-/// Memory of a layer, or of a base: maps, winner map, edge map, seats and displacements.
+/// Memory of a layer, or of a base: maps, winner map, edge map, composited and displacements.
 struct Memory {
     maps: [Vec<u32>; 3],
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
     displacements: Vec<u32>,
 }
 
@@ -64,7 +64,7 @@ impl Memory {
             maps: [0; 3].map(|word| vec![word; words]),
             winners: vec![0; cells],
             edges: vec![0; stages::words(grid)],
-            seats: vec![0; composite_words(grid)],
+            composited: vec![0; composite_words(grid)],
             displacements: vec![0; cells],
         }
     }
@@ -86,14 +86,14 @@ impl Memory {
         picture: Picture,
         stationary: bool,
     ) -> Layer<'p, F> {
-        let Self { maps: [front, back, third], winners, edges, seats, displacements } = self;
+        let Self { maps: [front, back, third], winners, edges, composited, displacements } = self;
         let lay = |memory| Galpixmap::new(grid, format, memory).expect("memory enough");
         let mut front = lay(front);
         picture.paint(&mut front);
         let layer = if stationary {
-            Layer::stationary(Stationary { stored: front, displacements }, lay(back), lay(third), winners, seats)
+            Layer::stationary(Stationary { stored: front, displacements }, lay(back), lay(third), winners, composited)
         } else {
-            Layer::new(front, lay(back), Scratch { winners, edges }, seats)
+            Layer::new(front, lay(back), Scratch { winners, edges }, composited)
         };
         layer.expect("memory enough")
     }
@@ -217,22 +217,22 @@ fn size(text: &str) -> Result<(u32, u32), String> {
         .ok_or_else(|| format!("\"{text}\" is no size: give sides of 1 to 1024 cells, as in 96x64"))
 }
 
-/// The table; whether each layout keeps within [`MOST_SPREAD`].
+/// Returns the table; whether each layout keeps within [`MOST_SPREAD`].
 fn table(counts: &[u64], cells: u32) -> bool {
     let mut keeps = true;
     for (layout, counts) in LAYOUTS.iter().zip(counts.chunks(MODES.len() * Picture::ALL.len())) {
-        println!("\n{layout}: instructions a cell\n{:<16} {:>10} {:>10}", "picture", MODES[0].1, MODES[1].1);
+        println!("\n{layout}: instructions per cell\n{:<16} {:>14} {:>14}", "picture", MODES[0].1, MODES[1].1);
         let modes: Vec<_> = counts.chunks(Picture::ALL.len()).collect();
         for (index, picture) in Picture::ALL.iter().enumerate() {
-            let [skipping, constant] = [0, 1].map(|mode| modes[mode][index] as f64 / f64::from(cells));
-            println!("{:<16} {skipping:>10.2} {constant:>10.2}", picture.name());
+            let [data_dependent, constant] = [0, 1].map(|mode| modes[mode][index] as f64 / f64::from(cells));
+            println!("{:<16} {data_dependent:>14.2} {constant:>14.2}", picture.name());
         }
         let spread = |counts: &[u64]| {
             let (least, most) = counts.iter().fold((u64::MAX, 0), |(least, most), &n| (least.min(n), most.max(n)));
             (most - least) as f64 / least as f64
         };
-        let [skipping, constant] = [0, 1].map(|mode| spread(modes[mode]));
-        println!("{:<16} {:>9.1}% {:>9.4}%", "spread", 100.0 * skipping, 100.0 * constant);
+        let [data_dependent, constant] = [0, 1].map(|mode| spread(modes[mode]));
+        println!("{:<16} {:>13.1}% {:>13.4}%", "spread", 100.0 * data_dependent, 100.0 * constant);
         keeps &= constant <= MOST_SPREAD;
     }
     keeps
@@ -264,11 +264,11 @@ fn main() -> ExitCode {
     let _ = std::fs::remove_dir_all(&folder);
     match counts {
         Ok(counts) => {
-            println!("a frame of {text} with the rung extend, counted by callgrind");
+            println!("a frame of {text} with the fill mode extend, counted by callgrind");
             if table(&counts, size.0 * size.1) {
                 return ExitCode::SUCCESS;
             }
-            eprintln!("the instructions of constant work depend on the picture by more than {} %", 100.0 * MOST_SPREAD);
+            eprintln!("constant-time instructions depend on the picture by more than {} %", 100.0 * MOST_SPREAD);
             ExitCode::FAILURE
         }
         Err(message) => {

@@ -1,4 +1,4 @@
-//! The disocclusion map beside the propagation of the same map, in one run.
+//! The disocclusion map compared with the propagation of the same map, in one run.
 //!
 //! ```sh
 //! cargo run --release -p galpix-bench --bin disocclusion                              # 1024x1024, 15 rounds
@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `x faster` is the time of the sweep (propagation and resolution of one frame) divided by that of the contender. What
-//! the other columns mean is said in `race.rs`.
+//! the other columns mean is described in `race.rs`.
 
 use std::cell::RefCell;
 use std::hint::black_box;

@@ -1,4 +1,4 @@
-//! Push-pull beside a memory copy and beside the textbook's in floats, in one run.
+//! Push-pull compared with a memory copy and with the textbook's in floats, in one run.
 //!
 //! ```sh
 //! cargo run --release -p galpix-bench --bin inpaint                              # 1024x1024, 15 rounds
@@ -7,11 +7,10 @@
 //!
 //! The picture is what a step makes of the scene of the benches: `all` are all its holes, `slivers` those that are left
 //! when bullet holes are filled; `map` are these in a galpixmap, with the motion of what is filled, by push-pull with
-//! quads unless it is said, and by metamers. The copy is of 20 bytes a cell, a map of the paper's galpixels. What the
-//! columns mean is said in `race.rs`.
+//! quads unless the name says otherwise, and by metamers. The copy is of 20 bytes per cell, a map of the paper's
+//! galpixels. The columns are described in `race.rs`.
 //!
-//! Ours works out what the holes need, the textbook's all cells. The dense form of ours is a reference inside the core
-//! and has no rows here any more.
+//! Ours computes what the holes need, the textbook's all cells.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -97,7 +96,8 @@ fn stepped((width, height): (u32, u32)) -> (Shared, Settings) {
     (Rc::new(RefCell::new(controller)), settings)
 }
 
-/// The stage as a controller has it: the holes of a galpixmap, with motion, and the depth of the background before.
+/// Returns the stage as a controller has it: the holes of a galpixmap, with motion, and the depth of the background
+/// before.
 fn on_a_map((width, height): (u32, u32)) -> Vec<Contender> {
     let (controller, settings) = stepped((width, height));
     let depth_bits = u32::from(controller.borrow().front().record().depth().bits);

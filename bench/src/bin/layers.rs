@@ -1,4 +1,4 @@
-//! What layers cost beside one map, in one run.
+//! What layers cost compared with one map, in one run.
 //!
 //! ```sh
 //! cargo run --release -p galpix-bench --bin layers                             # 1024x1024, 15 rounds
@@ -22,7 +22,7 @@ use galpix_core::layers::{Layer, Layers, composite_words};
 use galpix_core::stages::{self, sweep};
 use galpix_core::{Class, Controller, FillMode, Format, Galpixel, Galpixmap, Grid, Profile, Scratch, Settings, Static};
 
-/// What a layer beside the base holds.
+/// What a hidden layer holds.
 #[derive(Clone, Copy, Debug)]
 enum Second {
     /// Every cell, behind all of the base: seen where the base has holes.
@@ -101,7 +101,7 @@ struct Memory<F> {
     first: [Vec<u32>; 2],
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
 }
 
 /// Returns all planes of a map that holds some galpixels.
@@ -117,7 +117,7 @@ fn painted<F: Format>(grid: Grid<'_>, format: F, galpixels: &[Galpixel]) -> Vec<
 impl<F: Format> Memory<F> {
     /// Times one frame, from the same maps each time.
     fn time(&mut self, run: Run, fill_mode: FillMode) -> Duration {
-        let Self { grid, format, maps: [m0, m1, m2, m3], first, winners, edges, seats } = self;
+        let Self { grid, format, maps: [m0, m1, m2, m3], first, winners, edges, composited } = self;
         m0.copy_from_slice(&first[0]);
         m2.copy_from_slice(&first[1]);
         let lay = |memory| Galpixmap::over(*grid, *format, memory).expect("memory enough");
@@ -149,7 +149,7 @@ impl<F: Format> Memory<F> {
                 })
             }
             Run::Two(_) => {
-                let layer = Layer::new(lay(m2), lay(m3), Scratch::default(), seats).expect("memory enough");
+                let layer = Layer::new(lay(m2), lay(m3), Scratch::default(), composited).expect("memory enough");
                 let mut hidden = [layer];
                 let mut layers = Layers::new(base, &mut hidden).expect("one grid");
                 timed(&mut || {
@@ -182,7 +182,7 @@ fn compare<P: Profile>(layout: &str, (width, height): (u32, u32), rounds: usize,
         first: [first.clone(), first],
         winners: vec![0; grid.cells() as usize],
         edges: vec![0; stages::words(&grid)],
-        seats: vec![0; composite_words(&grid)],
+        composited: vec![0; composite_words(&grid)],
     };
     for fill_mode in [FillMode::None, FillMode::Extend] {
         let mut times = [(); Run::ALL.len()].map(|()| Vec::new());
@@ -196,7 +196,7 @@ fn compare<P: Profile>(layout: &str, (width, height): (u32, u32), rounds: usize,
             }
         }
         println!(
-            "\n{layout}, {}, rung {}\n{:<40} {:>9} {:>9} {:>9}",
+            "\n{layout}, {}, fill mode {}\n{:<40} {:>9} {:>9} {:>9}",
             motion.name(),
             fill_mode.name(),
             "",

@@ -1,4 +1,4 @@
-//! The engine beside a memory copy and beside floats, in one run: figures that survive a noisy machine.
+//! The engine compared with a memory copy and with floats, in one run: figures that survive a noisy machine.
 //!
 //! ```sh
 //! cargo run --release -p galpix-bench --bin ratios                              # 1024x1024, 15 rounds
@@ -6,7 +6,7 @@
 //! RUSTFLAGS='-C target-cpu=x86-64-v3' taskset -c 1 cargo run --release -p galpix-bench --bin ratios
 //! ```
 //!
-//! What the columns of the first table mean is said in `race.rs`. The second table is for formats that are chosen at
+//! The columns of the first table are described in `race.rs`. The second table is for formats that are chosen at
 //! run time: the median over rounds of a stage's time by that of the same format fixed at compile time, in the same
 //! round.
 
@@ -22,7 +22,7 @@ use galpix_bench::{Flat565, Full, Laid, Maps, Velocity565, at_run_time};
 use galpix_core::stages::sweep;
 use galpix_core::{Format, Profile, Rounding, Static};
 
-/// The way in floats: what others are compared with.
+/// The version in floats, with which others are compared.
 const NAIVE: &str = "naive f32";
 /// The end of a contender's name whose format is chosen at run time.
 const AT_RUN_TIME: &str = ", chosen at run time";
@@ -53,7 +53,7 @@ impl Scene {
         }
     }
 
-    /// Adds the stages of a format; the ones beside the sweep with the scene only.
+    /// Adds the stages of a format; all but the sweep with the scene only.
     fn enter_format<F: Format + 'static>(&self, contenders: &mut Vec<Contender>, name: &str, format: F) {
         let Self { width, height, motion, ref samples } = *self;
         let maps = Rc::new(RefCell::new(Maps::new(width, height, format, samples)));

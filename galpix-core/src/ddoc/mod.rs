@@ -10,8 +10,8 @@
 //! 2. Find the cells that each of them distorts, its *splat* (steps 3 to 5).
 //! 3. Look up how far a place is moved (step 6 and equation 1).
 //!
-//! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/ddoc.md` says how the paper was
-//! read.
+//! After V. Popescu, D. Aliaga, "The Depth Discontinuity Occlusion Camera", 2006. `docs/notes/ddoc.md` says how the
+//! paper was read.
 //!
 //! **Numbers.** Depths are words of up to 28 bits, 0 the nearest, linear in *inverse* distance (`1 - near / z`): what
 //! the paper has linear in `1/z` is linear in them. Places and lengths are in units of 1 / [`ONE`] cell; the

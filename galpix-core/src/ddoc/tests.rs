@@ -286,7 +286,7 @@ fn no_cell_belongs_to_a_splat_that_does_not_reach_it() {
 
 #[test]
 fn what_faces_nowhere_is_no_splat() {
-    // One near cell: all around it is as far, so there is no way away from it.
+    // One near cell: its surroundings are equally far, so no direction leads away from it.
     let made = made(16, &settings(4), |x, y| if (x, y) == (8, 8) { NEAR } else { FAR });
     assert_eq!((made.tally.edges, made.tally.splats, made.tally.distorted), (1, 0, 0));
     // Two of them do have a line.

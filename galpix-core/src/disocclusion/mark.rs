@@ -365,7 +365,7 @@ impl<'m, 'p, F: Format> Marker<'m, 'p, F> {
         uncovered
     }
 
-    /// Raises the extents of a cell to those of `to`, and blocks it as `to` says.
+    /// Raises the extents of a cell to those of `to`, and blocks it where `to` is blocked.
     fn raise(&self, row: &mut [u32], x: u32, to: u32) {
         if let Some(word) = row.get_mut(x as usize) {
             let to = to & self.marked;

@@ -3,7 +3,7 @@
 //! Where a near surface leaves a far one, it uncovers what was hidden behind it. Before an update is shown, the map
 //! says of each of its cells whether that can happen within the frames until the next update, and how far what is
 //! uncovered extends from the cell. The hidden samples of all other cells need not be carried. After Algorithms 1 and 2
-//! of the supplement to the paper on depth layers; `docs/disocclusion.md` says how they were read, and proves the
+//! of the supplement to the paper on depth layers; `docs/notes/disocclusion.md` says how they were read, and proves the
 //! guarantee below.
 //!
 //! 1. [`mark()`] resolves each pair of neighbours: where one gets away from the other, the nearer one leaves, and
@@ -11,14 +11,14 @@
 //! 2. [`spread()`] propagates this from cell to cell (Algorithm 2).
 //!
 //! [`map()`] does both in one pass down and one pass up. [`cover`] does the same with a single line of memory and keeps
-//! one bit a cell.
+//! one bit per cell.
 //!
 //! **Guarantee.** Two surfaces lie at least [`Reach::separation`] apart, and each moves as a whole. A sample that is
 //! hidden behind the near one, moves like the far one, and is where no galpixel of the map is after any of the frames,
 //! was hidden in a cell whose extents are not 0. This holds with every rounding, and with velocities that saturate.
 //!
-//! *Memory:* four bytes a cell. *Cost:* some vector operations a cell and some hundred operations for each pair that
-//! these do not decide.
+//! *Memory:* four bytes per cell. *Cost:* some vector operations per cell and some hundred operations for each pair
+//! that these do not decide.
 
 mod extents;
 mod line;
@@ -32,6 +32,8 @@ pub use line::cover;
 pub(crate) use line::make_cover;
 pub use spread::spread;
 
+#[cfg(feature = "check")]
+use crate::fast::check::due;
 use crate::format::Format;
 use crate::map::Galpixmap;
 use mark::{Marker, NO_PASS};
@@ -137,10 +139,10 @@ pub fn map<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Rea
 
 pub(crate) fn make<F: Format>(front: &Galpixmap<'_, F>, extents: &mut [u32], reach: &Reach) -> Tally {
     #[cfg(feature = "check")]
-    let expected = check::expected(front, extents.to_vec(), reach);
+    let expected = due(front.grid().cells()).then(|| check::expected(front, extents.to_vec(), reach));
     let tally = make_by_rows(front, extents, reach);
     #[cfg(feature = "check")]
-    assert_eq!((&*extents, tally), (&*expected.0, expected.1), "the disocclusion map by rows");
+    assert!(expected.is_none_or(|made| made == (extents.to_vec(), tally)), "the disocclusion map by rows: {reach:?}");
     tally
 }
 
@@ -170,6 +172,7 @@ mod check {
     use std::vec::Vec;
 
     use super::{Reach, Tally, mark_pairs, spread};
+    use crate::fast::check::due;
     use crate::format::Format;
     use crate::map::Galpixmap;
 
@@ -187,6 +190,9 @@ mod check {
     /// Asserts that a mask holds the cells that the map of extents covers.
     pub(super) fn cover<F: Format>(front: &Galpixmap<'_, F>, mask: &[u32], tally: &Tally, reach: &Reach) {
         let cells = front.grid().cells() as usize;
+        if !due(front.grid().cells()) {
+            return;
+        }
         let (extents, expected) = expected(front, vec![0; cells], reach);
         assert_eq!(*tally, expected, "the counts of the cells that are covered");
         let made = |cell: usize| mask[cell / 32] >> (cell % 32) & 1 != 0;

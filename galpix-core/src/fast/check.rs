@@ -1,9 +1,11 @@
 //! The feature `check`: runs each fast pass and its reference on copies, and compares the results.
 //!
 //! Runs both the wide and the narrow form, whichever the machine uses. Panics if results differ. For tests on a host.
+//! Of many passes, and of passes over large maps, a sample is compared, see [`due`].
 
 extern crate std;
 
+use core::cell::Cell;
 use std::vec;
 use std::vec::Vec;
 
@@ -16,6 +18,25 @@ use crate::frame::tally::Tally;
 use crate::frame::{self, Scratch, Settings, edge, reference};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
+
+/// Maps of up to this number of cells are small.
+const SMALL: u32 = 1 << 13;
+
+/// Of the passes over small maps, the first ones of each thread are all compared.
+const ALL: usize = 1 << 12;
+
+/// Of the others, one in this number: a prime, so that all passes of a frame take turns.
+const SAMPLE: usize = 13;
+
+/// Returns whether a pass over a map of this number of cells is to be compared with its reference. A test has a thread
+/// of its own, and with it a count of its own. Comparing every pass of the tests that enumerate millions of maps, or
+/// run captures, would take up to ten times their time.
+pub(crate) fn due(cells: u32) -> bool {
+    std::thread_local! { static PASSES: Cell<usize> = const { Cell::new(0) }; }
+    let passes = PASSES.get();
+    PASSES.set(passes.wrapping_add(1));
+    cells <= SMALL && passes < ALL || passes.is_multiple_of(SAMPLE)
+}
 
 /// Returns the words of a map, plane by plane.
 pub(crate) fn words<F: Format>(map: &Galpixmap<'_, F>) -> Vec<u32> {
@@ -35,6 +56,9 @@ pub(crate) fn on_copy<F: Format, R>(
 
 /// Compares the edge maps that all forms make.
 pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &[u32]) {
+    if !due(front.grid().cells()) {
+        return;
+    }
     let made = |mark: fn(&Galpixmap<'_, F>, u32, &mut [u32]) -> u32| {
         let mut edges = edges.to_vec();
         let count = mark(front, threshold, &mut edges);
@@ -56,7 +80,7 @@ pub(crate) fn sweep<F: Format>(
     rounding: Rounding,
     frame: u32,
 ) {
-    if front.grid() != back.grid() {
+    if front.grid() != back.grid() || !due(front.grid().cells()) {
         return;
     }
     let made = |sweep: Sweep<F>| {
@@ -87,6 +111,9 @@ fn compare_fills<F: Format>(
     tally: &Tally,
     fills: [&Fill<'_, F>; 2],
 ) {
+    if !due(back.grid().cells()) {
+        return;
+    }
     let [expected, made] = fills.map(|fill| {
         let (mut winners, mut edges, mut tally) = (scratch.winners.to_vec(), scratch.edges.to_vec(), *tally);
         let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
@@ -129,11 +156,12 @@ pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scr
 /// The next frame of a [`Rolling`] map, made with two maps.
 pub(crate) struct Expected(Option<(Vec<u32>, Tally)>);
 
-/// Makes the next frame of a rolling map with two maps. Expects nothing if the window reduces the reach.
+/// Makes the next frame of a rolling map with two maps. Expects nothing if the window reduces the reach, or if the pass
+/// is not [`due`].
 pub(crate) fn rolling<F: Format>(rolling: &Rolling<'_, F>, settings: &Settings) -> Expected {
     let map = rolling.map();
     let provided = rolling.scratch();
-    if settings.fill_mode.rounds(settings.reach) > rolling.rounds() {
+    if settings.fill_mode.rounds(settings.reach) > rolling.rounds() || !due(map.grid().cells()) {
         return Expected(None);
     }
     let cells = if provided.winners.is_empty() { 0 } else { map.grid().cells() as usize };

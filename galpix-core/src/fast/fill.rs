@@ -13,6 +13,9 @@ use crate::map::galpixel::Class;
 /// Cells that are searched for holes at once.
 const RUN: u32 = 32;
 
+/// A cell that no map has.
+const NO_CELL: u32 = u32::MAX;
+
 /// Fills the holes of `back`, see [`crate::frame::fill::fill`].
 pub(crate) fn fill<F: Format>(
     around: &impl Around,
@@ -99,8 +102,12 @@ struct Filler<'f, 'q, A, F> {
     edges: &'f [u32],
     fill_mode: FillMode,
     tally: &'f mut Tally,
-    /// The nearest cell to the left of the current one, in its row, that was not empty when the round began.
-    left: Option<u32>,
+}
+
+/// The ends of the run of holes that the current column of a row belongs to.
+struct Ends {
+    /// The nearest cell to the left that was not empty when the round began; [`NO_CELL`] without one.
+    left: u32,
     /// The column of the nearest such cell to the right, or the width; valid while it is greater than the current
     /// column.
     right: u32,
@@ -115,25 +122,25 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         tally: &'f mut Tally,
     ) -> Self {
         let Scratch { winners, edges } = scratch;
-        Self { around, back, winners, edges, fill_mode, tally, left: None, right: 0 }
+        Self { around, back, winners, edges, fill_mode, tally }
     }
 
     /// Fills the bullet holes of a row; in the last round all of its holes.
     fn row(&mut self, row: Row) {
-        (self.left, self.right) = (None, 0);
+        let mut ends = Ends { left: NO_CELL, right: 0 };
         let width = self.back.grid().width();
         let mut x = 0;
         while x < width {
             let run = (width - x).min(RUN);
             // Most runs have no hole, so that a single test of the whole run pays.
             if !self.back.any_empty(row.start + x, run) {
-                self.left = Some(row.start + x + run - 1);
+                ends.left = row.start + x + run - 1;
             } else {
                 for x in x..x + run {
                     if self.back.class(row.start + x) == Class::Empty {
-                        self.hole(&row, x);
+                        self.hole(&row, x, &mut ends);
                     } else {
-                        self.left = Some(row.start + x);
+                        ends.left = row.start + x;
                     }
                 }
             }
@@ -142,12 +149,12 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
     }
 
     /// Fills the hole in column `x` of a row, if it is a bullet hole or the round is the last.
-    fn hole(&mut self, row: &Row, x: u32) {
+    fn hole(&mut self, row: &Row, x: u32, ends: &mut Ends) {
         let cell = row.start + x;
         let bullet = if self.fill_mode.uses_edges() { self.bullet(x as i32, row.y, row.round) } else { None };
         let (words, winner) = match bullet {
             Some(words) => (words, FILLED + row.round),
-            None if row.last => (self.unobscured(row, x), NO_WINNER),
+            None if row.last => (self.unobscured(row, x, ends), NO_WINNER),
             None => return,
         };
         self.tally.holes += 1;
@@ -160,13 +167,13 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
 
     /// Returns the farther of the two surfaces at the ends of the run of holes that column `x` of a row belongs to; the
     /// left one if they are equally far.
-    fn farther_end(&mut self, row: &Row, x: u32) -> Option<Words> {
+    fn farther_end(&self, row: &Row, x: u32, ends: &mut Ends) -> Option<Words> {
         let (row, width) = (row.start, self.back.grid().width());
-        if self.right <= x {
-            self.right = x + 1 + self.back.empties((row + x + 1) as usize..(row + width) as usize);
+        if ends.right <= x {
+            ends.right = x + 1 + self.back.empties((row + x + 1) as usize..(row + width) as usize);
         }
-        let left = self.left.and_then(|cell| self.back.words_at(cell));
-        let right = if self.right < width { self.back.words_at(row + self.right) } else { None };
+        let left = self.back.words_at(ends.left);
+        let right = if ends.right < width { self.back.words_at(row + ends.right) } else { None };
         let depth = |words: &Words| self.back.record().depth().unsigned(words);
         match (left, right) {
             (Some(left), Some(right)) => Some(if depth(&right) > depth(&left) { right } else { left }),
@@ -175,13 +182,13 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
     }
 
     /// Returns what a hole in column `x` of a row holds that is no bullet hole.
-    fn unobscured(&mut self, row: &Row, x: u32) -> Words {
+    fn unobscured(&mut self, row: &Row, x: u32, ends: &mut Ends) -> Words {
         // The record of `around`, because that of `back` cannot be borrowed while `self` is.
         let record = self.around.record();
         let before = self.around.before(row.before + x).unwrap_or_default();
         let known = record.class().unsigned(&before) != Class::Empty as u32;
         if self.fill_mode >= FillMode::Galdebris && known {
-            let surface = if self.fill_mode == FillMode::Extend { self.farther_end(row, x) } else { None };
+            let surface = if self.fill_mode == FillMode::Extend { self.farther_end(row, x, ends) } else { None };
             let mut words = surface.unwrap_or(before);
             record.class().set(&mut words, Class::JustUnobscured as u32);
             self.tally.galdebris += 1;

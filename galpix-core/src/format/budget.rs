@@ -172,7 +172,7 @@ impl Component {
     }
 
     /// Checks what the arithmetic needs: fields of at most [`WIDEST_FIELD`] bits, also in units of the position's last
-    /// bit; a rounding threshold that fits beside `2v + a`; at most 16 fraction bits of the position; and no
+    /// bit; room for a rounding threshold in the word of `2v + a`; at most 16 fraction bits of the position; and no
     /// acceleration finer than the velocity.
     ///
     /// *Errors:* a velocity without an integer bit, a field that is too wide, a velocity coarser than the acceleration.
@@ -203,7 +203,8 @@ impl Component {
         }
     }
 
-    /// Checks that the rounding threshold of a position with `position_frac` fraction bits fits beside `2v + a`.
+    /// Checks that the rounding threshold of a position with `position_frac` fraction bits fits into the word of `2v +
+    /// a`.
     pub(crate) const fn dropped_bits_checked(self, position_frac: u32) -> Result<(), BudgetError> {
         let bits = (self.velocity_frac + 2).saturating_sub(position_frac);
         if bits > WIDEST_FIELD { Err(BudgetError::FieldTooWide { bits, most: WIDEST_FIELD }) } else { Ok(()) }

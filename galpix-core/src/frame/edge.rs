@@ -8,7 +8,7 @@
 //!
 //! The Laplacian of the depth vanishes on a plane, but not at a step. A cell is **inside a surface** if it and its four
 //! neighbours are galpixels and the absolute Laplacian does not exceed the threshold; else it is **on an edge**. So a
-//! cell beside a hole or beside debris is on an edge, because the surface is not known to continue there. A neighbour
+//! cell next to a hole or to debris is on an edge, because the surface is not known to continue there. A neighbour
 //! outside of the map is taken to have the class and the depth of the cell itself.
 //!
 //! *Cost* per cell: 4 additions, 1 shift and 2 comparisons; five cells are read.

@@ -55,7 +55,7 @@ pub(crate) fn thresholds(record: &Record, rounding: Rounding, frame: u32) -> [i3
     [rounding.threshold(frame, x.down), rounding.threshold(frame, y.down), rounding.threshold(frame, z.down)]
 }
 
-/// What a step did beside changing the words.
+/// What a step did besides changing the words.
 pub(crate) struct Step {
     /// Cells moved along the row.
     pub dx: i32,

@@ -1,10 +1,11 @@
 //! Stretched quads: the depth of the background in what was uncovered (section 3.1 of the paper).
 //!
-//! Four neighbours of the map before are the corners of a quad. Where it is torn, for its corners go different ways, it
-//! connects foreground and background, and what opens between them has the farthest of its depths. The paper draws such
-//! quads with the others into a depth buffer that is *re-partitioned*, equation (1), so that one depth test does all:
-//! what is known is never overwritten, and of two stretched quads the farther one is seen. Here the known galpixels are
-//! in the map already, with their depths, so that only the stretched quads have to be drawn, and only holes look.
+//! Four neighbours of the map before are the corners of a quad. Where it is torn, because its corners move differently,
+//! it connects foreground and background, and what opens between them has the farthest of its depths. The paper draws
+//! such quads with the others into a depth buffer that is *re-partitioned*, equation (1), so that one depth test does
+//! all: what is known is never overwritten, and of two stretched quads the farther one is seen. Here the known
+//! galpixels are in the map already, with their depths, so that only the stretched quads have to be drawn, and only
+//! holes look.
 //!
 //! A quad is looked at if one of its corners is on the edge of a surface: inside of one nothing is uncovered, or it is
 //! a bullet hole. Its area is the convex hull of its corners, whose cells are found by the sides of lines they lie on.
@@ -85,7 +86,7 @@ pub(crate) fn lay_background<F: Format>(
     changed
 }
 
-/// Quads beside each other whose columns fit into a word of the edge map.
+/// Neighbouring quads whose columns fit into a word of the edge map.
 const QUADS: u32 = u32::BITS - 1;
 
 /// Returns which of the 32 cells from `cell` on are on the edge of a surface, the first one in the lowest bit. What is

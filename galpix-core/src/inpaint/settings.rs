@@ -24,14 +24,14 @@ impl Inpainting<'_> {
     /// Bits of a depth that count. Deeper z-buffers drop their lowest bits.
     pub const DEPTH_BITS: u32 = DEPTH_BITS;
 
-    /// Returns an inpainting that tells foreground from background by depths of `depth_bits` bits, as the edge map does
-    /// by default, with quads and everywhere.
+    /// Returns an inpainting that separates foreground from background by depths of `depth_bits` bits, as the edge map
+    /// does by default, with quads and everywhere.
     #[must_use]
     pub const fn for_depth(depth_bits: u32, gamma: Gamma) -> Self {
         Self::for_edge_threshold(edge::threshold_for_depth(depth_bits), depth_bits, gamma)
     }
 
-    /// Returns an inpainting that tells foreground from background by this threshold of an edge map
+    /// Returns an inpainting that separates foreground from background by this threshold of an edge map
     /// ([`Settings::edge_threshold`](crate::Settings::edge_threshold)), for depths of `depth_bits` bits, with quads and
     /// everywhere.
     #[must_use]

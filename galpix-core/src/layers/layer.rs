@@ -11,7 +11,7 @@ use crate::layers::stationary::Stationary;
 use crate::map::Galpixmap;
 use crate::map::grid::Grid;
 
-/// Returns the words of a layer's composite masks: one bit a cell for the current frame and one for the frame before.
+/// Returns the words of a layer's composite masks: one bit per cell for the current frame and one for the frame before.
 #[must_use]
 pub const fn composite_words(grid: &Grid<'_>) -> usize {
     2 * edge::words(grid)
@@ -23,7 +23,7 @@ pub struct Layer<'p, F> {
     pub(super) front: Galpixmap<'p, F>,
     back: Galpixmap<'p, F>,
     scratch: Scratch<'p>,
-    /// One bit a cell: whether the galpixels of this layer and of the base have changed places.
+    /// One bit per cell: whether the galpixels of this layer and of the base have changed places.
     composited: &'p mut [u32],
     /// The same for the frame before.
     composited_before: &'p mut [u32],
@@ -37,7 +37,7 @@ impl<'p, F: Format> Layer<'p, F> {
     /// composite masks, whatever these hold.
     ///
     /// With a winner map it reports where its galpixels come from. With an edge map too it fills its own bullet holes,
-    /// in the fill modes that tell surfaces apart.
+    /// in the fill modes that separate surfaces.
     ///
     /// *Errors:* grids that differ, scratch memory that is neither empty nor long enough, too few words in
     /// `composited`.

@@ -24,8 +24,8 @@
 //! *Cost* per frame: a sweep per layer; per hidden layer also a comparison per cell and two exchanges per composited
 //! cell.
 //!
-//! *Memory* per hidden layer: two maps and two bits a cell; a stationary-source layer three maps, two bits and one word
-//! a cell.
+//! *Memory* per hidden layer: two maps and two bits per cell; a stationary-source layer three maps, two bits and one
+//! word a cell.
 
 mod composite;
 mod layer;

@@ -232,11 +232,29 @@ impl<'p, F: Format> Galpixmap<'p, F> {
     /// Returns whether any of `count` cells from `cell` on was just unobscured.
     #[inline(always)]
     pub(crate) fn any_just_unobscured(&self, cell: u32, count: u32) -> bool {
-        const { assert!(Class::JustUnobscured as u32 == 1, "the only class with the lower bit alone") }
         let (word, _) = self.record().class().words();
         let cells = self.planes[word].get(cell as usize..(cell + count) as usize).unwrap_or_default();
-        let any = cells.iter().fold(0, |any, word| any | word & !(word >> 1));
+        self.hold_just_unobscured(cells)
+    }
+
+    /// Returns whether any of some words that have the class is that of a just-unobscured cell.
+    #[inline(always)]
+    fn hold_just_unobscured(&self, words: &[u32]) -> bool {
+        const { assert!(Class::JustUnobscured as u32 == 1, "the only class with the lower bit alone") }
+        let any = words.iter().fold(0, |any, word| any | word & !(word >> 1));
         any >> self.record().class().shift & 1 != 0
+    }
+
+    /// Returns how many of some cells come before the first run of `RUN` cells of which one was just unobscured; all if
+    /// there is none.
+    ///
+    /// Not inlined: most runs have none, and so the loop over them has all registers.
+    #[inline(never)]
+    pub(crate) fn cells_before_just_unobscured<const RUN: usize>(&self, cells: Range<u32>) -> u32 {
+        let (word, _) = self.record().class().words();
+        let words = self.planes[word].get(cells.start as usize..cells.end as usize).unwrap_or_default();
+        let before = words.chunks(RUN).take_while(|words| !self.hold_just_unobscured(words));
+        ((before.count() * RUN) as u32).min(cells.end - cells.start)
     }
 
     /// Returns how many of some cells are empty, counted from the first up to one that is not.

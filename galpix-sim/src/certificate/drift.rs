@@ -27,7 +27,7 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// The drift over some states only, from the first phase on: at most that of all of them.
+    /// Creates the drift over some states only, from the first phase on: at most that of all of them.
     pub fn sampled(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
         let down = scale.down;
         let accelerations = if has_acceleration { 1usize << down.saturating_sub(scale.acceleration_up) } else { 1 };
@@ -39,7 +39,7 @@ impl Drift {
         Self { by_frame, any_phase, method: Method::Enumerated, classes: 0, phases: 1 }
     }
 
-    /// The drift of a component over `prop` frames.
+    /// Creates the drift of a component over `prop` frames.
     pub fn of(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
         let down = scale.down;
         // What an acceleration adds is a multiple of this; without one, 0 alone.
@@ -80,8 +80,8 @@ fn larger(mut one: Vec<i64>, other: Vec<i64>) -> Vec<i64> {
     one
 }
 
-/// The worst drift after each frame for one acceleration over all residues of the velocity, side by side so that the
-/// loop over them becomes vector code.
+/// Returns the worst drift after each frame for one acceleration over all residues of the velocity, side by side so
+/// that the loop over them becomes vector code.
 fn worst_of(down: u32, a: i32, thresholds: &[i32]) -> Vec<i64> {
     let mask = (1i32 << down) - 1;
     let velocities = 1i32 << down.saturating_sub(1);

@@ -7,8 +7,8 @@
 //! because `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma
 //! is proved in `docs/error-bounds.md`.
 //!
-//! The snap to a cell, at most half a pixel, is the same for any method and stands apart. A galpixel that saturates is
-//! counted, and outside of the certificate.
+//! The snap to a cell, at most half a pixel, is the same for any method and is not included. A galpixel that saturates
+//! is counted, and not covered by the certificate.
 
 mod drift;
 mod smallest;
@@ -40,7 +40,7 @@ pub struct FrameBound {
 }
 
 impl FrameBound {
-    /// Quantisation and drift.
+    /// Returns the quantisation and drift.
     #[must_use]
     pub fn total_px(&self) -> f64 {
         self.quantisation_px + self.drift_px
@@ -80,7 +80,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// The certificate of one component for `prop` frames.
+    /// Creates the certificate of one component for `prop` frames.
     #[must_use]
     pub fn of(scale: &Scale, has_acceleration: bool, rounding: Rounding, prop: u32) -> Self {
         let drift = Drift::of(scale, has_acceleration, rounding, prop);
@@ -117,20 +117,22 @@ impl Certificate {
         }
     }
 
-    /// Whether the paper's promise holds: a galpixel is within one pixel of its true place for `tau_prop` frames.
+    /// Returns whether the paper's promise holds: a galpixel is within one pixel of its true place for `tau_prop`
+    /// frames.
     #[must_use]
     pub fn keeps_one_pixel(&self) -> bool {
         self.total_px <= 1.0
     }
 
-    /// The bound after `frame` frames, in pixels; beyond `tau_prop` nothing is certified.
+    /// Returns the bound after `frame` frames, in pixels; beyond `tau_prop` nothing is certified.
     #[must_use]
     pub fn after(&self, frame: u32) -> Option<f64> {
         Some(self.frames.get(frame.checked_sub(1)? as usize)?.total_px())
     }
 }
 
-/// The largest errors after `frame` frames from storing position, velocity and acceleration to nearest, in pixels.
+/// Returns the largest errors after `frame` frames from storing position, velocity and acceleration to nearest, in
+/// pixels.
 fn quantisation(scale: &Scale, has_acceleration: bool, frame: u32) -> [f64; 3] {
     let half_of_last_bit = |frac: u32| 0.5f64.powi(frac as i32 + 1);
     let n = f64::from(frame);

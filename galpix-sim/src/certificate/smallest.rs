@@ -19,7 +19,7 @@ const MOST_FRAC: u32 = 29;
     rounding.name()
 )]
 pub struct Unreachable {
-    /// The error that was asked for, in pixels.
+    /// The requested error, in pixels.
     pub asked: f64,
     /// For how many frames.
     pub prop: u32,
@@ -29,8 +29,8 @@ pub struct Unreachable {
     pub best: f64,
 }
 
-/// The component of the fewest motion bits, with the integer bits of `ranges`, whose certificate for `prop` frames is
-/// at most `max_error` pixels; of several, the one with the smallest error.
+/// Returns the component of the fewest motion bits, with the integer bits of `ranges`, whose certificate for `prop`
+/// frames is at most `max_error` pixels; of several, the one with the smallest error.
 ///
 /// *Errors:* if there is none.
 pub fn smallest(
@@ -55,7 +55,7 @@ pub fn smallest(
         if quantised > goal || scale.down > MOST_DOWN {
             continue;
         }
-        // What some states drift tells most candidates apart; all states are run for those that are left.
+        // The drift of some states excludes most candidates; all states are run for the rest.
         let (some, drift) = drifts
             .entry((scale.down, scale.acceleration_up))
             .or_insert_with(|| (Drift::sampled(&scale, has_acceleration, rounding, prop), None));
@@ -74,7 +74,7 @@ pub fn smallest(
     found.ok_or(Unreachable { asked: max_error, prop, rounding, best })
 }
 
-/// All components with these integer bits that can exist.
+/// Returns all components with these integer bits that can exist.
 fn candidates(ranges: Component) -> impl Iterator<Item = Component> {
     let accelerations = move |velocity_frac| if ranges.has_acceleration() { 0..=velocity_frac } else { 0..=0 };
     (0..=16).flat_map(move |position_frac| {

@@ -58,7 +58,7 @@ pub struct Budget {
     /// How positions are rounded
     #[arg(long, value_enum, value_name = "ROUNDING", default_value_t)]
     rounding: RoundingChoice,
-    /// Which lanes a galpixel carries
+    /// Which fields a galpixel carries
     #[arg(long, value_enum, value_name = "LAYOUT", default_value_t)]
     layout: LayoutChoice,
     /// Bits to take off in x and y, for example velocity-int=1; may be given several times
@@ -227,7 +227,7 @@ fn text(printed: &Printed) -> String {
          total\n",
         printed.rounding
     ));
-    for bound in certificate.frames.iter().filter(|bound| told(bound.frame, report.prop)) {
+    for bound in certificate.frames.iter().filter(|bound| is_listed(bound.frame, report.prop)) {
         text.push_str(&format!(
             "  {:>5} {:>10.4} {:>9.4} {:>13.4} {:>9.4} {:>9.4}\n",
             bound.frame,
@@ -262,12 +262,12 @@ fn text(printed: &Printed) -> String {
     text
 }
 
-/// Of many frames, some are told: the first, the powers of two, the last.
-fn told(frame: u32, prop: u32) -> bool {
+/// Returns whether a frame is listed: the first, the powers of two, the last.
+fn is_listed(frame: u32, prop: u32) -> bool {
     prop <= 32 || frame.is_power_of_two() || frame == prop
 }
 
-/// How a certificate was found, in words.
+/// Returns how a certificate was found, in words.
 fn method(certificate: &Certificate) -> String {
     let Certificate { classes, phases, .. } = certificate;
     match certificate.method {

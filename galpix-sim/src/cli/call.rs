@@ -1,13 +1,13 @@
-//! What a report says of how it was made, and where its files go.
+//! How a report was made, and where its files go.
 
 use std::path::Path;
 
-use super::{CliError, say};
+use super::{CliError, note};
 use crate::output::save::draft;
 use crate::source::capture::ImportOptions;
 use crate::source::{Source, scene};
 
-/// The sources that are named; all scenes and the capture marbles if none is.
+/// Returns the sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
     let open = |name: &String| Source::open(name, options).map_err(CliError::unusable);
     if names.is_empty() { Ok(all()) } else { names.iter().map(open).collect() }
@@ -20,13 +20,13 @@ pub fn all() -> Vec<Source> {
     if capture.exists() {
         match Source::open(&capture.to_string_lossy(), &ImportOptions::default()) {
             Ok(source) => sources.push(source),
-            Err(error) => say(&format!("galpix: {error}")),
+            Err(error) => note(&format!("galpix: {error}")),
         }
     }
     sources
 }
 
-/// The call, as it can be repeated.
+/// Returns the call, as it can be repeated.
 pub fn command() -> String {
     let quoted = |argument: String| {
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,+:".contains(c);
@@ -40,7 +40,7 @@ pub fn command() -> String {
     std::iter::once("galpix".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }
 
-/// The processor's name and the number of its threads, as far as the system tells.
+/// Returns the processor's name and the number of its threads, if the system reports them.
 pub fn machine() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let name = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {

@@ -6,7 +6,7 @@ use galpix_core::{FillMode, Rounding};
 use crate::engine::ScanOut;
 use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
 use crate::source::capture::{AccelerationPolicy, ImportOptions};
-use crate::source::hidden::Way;
+use crate::source::hidden::Strategy;
 use crate::study::job::Request;
 
 /// How positions are rounded.
@@ -34,7 +34,7 @@ impl From<RoundingChoice> for Rounding {
     }
 }
 
-/// What is put into holes. Each rung includes the cheaper ones it builds on.
+/// What is put into holes. Each mode includes the cheaper ones that it builds on.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum FillChoice {
     /// Holes are shown black
@@ -47,7 +47,7 @@ pub enum FillChoice {
     Bullet,
     /// As bullet, and debris keeps its motion, one frame late
     Galdebris,
-    /// As bullet, and what was uncovered continues the farther of the surfaces beside it, along its row
+    /// As bullet, and what was uncovered continues the farther of the surfaces next to it, along its row
     #[default]
     Extend,
     /// As extend, and what was uncovered takes the colours around it that are no nearer, the finer the closer
@@ -121,16 +121,16 @@ pub struct Inpainting {
     /// for push-pull, 1/2 for metamer]
     #[arg(long, value_enum, value_name = "GAMMA")]
     pub gamma: Option<GammaChoice>,
-    /// For push-pull and metamer: leave a disc of this radius in the middle of the display to the rung extend
+    /// For push-pull and metamer: leave a disc of this radius in the middle of the display to the fill mode extend
     #[arg(long, value_name = "PX", value_parser = clap::value_parser!(u32).range(1..=32_768))]
     pub fovea: Option<u32>,
 }
 
 impl Inpainting {
-    /// A fill as these arguments want it; a fill without inpainting is left as it is.
+    /// Returns a fill as these arguments want it; a fill without inpainting is left as it is.
     pub fn of(&self, fill: Fill) -> Fill {
         match fill {
-            Fill::Rung(_) => fill,
+            Fill::Mode(_) => fill,
             Fill::Inpaint(inpaint) => Fill::Inpaint(Inpaint {
                 gamma: self.gamma.map_or(inpaint.gamma, Gamma::from),
                 fovea: self.fovea,
@@ -174,7 +174,7 @@ pub struct Extrapolation {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
     /// What is put into holes
-    #[arg(long, value_enum, value_name = "RUNG", default_value_t)]
+    #[arg(long, value_enum, value_name = "MODE", default_value_t)]
     pub fill: FillChoice,
     #[command(flatten)]
     pub inpainting: Inpainting,
@@ -204,7 +204,7 @@ pub struct Extrapolation {
     pub acceleration: AccelerationChoice,
 }
 
-/// A part of the depth range, from an argument.
+/// Returns a part of the depth range, from an argument.
 pub fn part(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(part) if (0.0..=8.0).contains(&part) => Ok(part),
@@ -213,7 +213,7 @@ pub fn part(text: &str) -> Result<f64, String> {
 }
 
 impl Extrapolation {
-    /// The request that these arguments make.
+    /// Returns the request that these arguments make.
     pub fn request(&self) -> Request {
         Request {
             frames: self.frames,
@@ -226,12 +226,12 @@ impl Extrapolation {
             edge_threshold: self.edge_threshold,
             scan_out: self.scan_out.into(),
             perceptual: true,
-            way: Way::ONE,
+            strategy: Strategy::ONE,
         }
     }
 }
 
-/// A positive number of pixels.
+/// Returns a positive number of pixels.
 pub fn pixels(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(error) if error > 0.0 && error.is_finite() => Ok(error),

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::call::{command, machine, writable};
-use super::{CliError, print, printable, printable_lines, progress, say};
+use super::{CliError, note, print, printable, printable_lines, progress};
 use crate::output::save::write_atomically;
-use crate::study::{Document, File, Found, Silent, Stage, Study, StudyError, Told, Work};
+use crate::study::{Document, File, Found, PathPrinted, Silent, Stage, Study, StudyError, Work};
 
 impl From<StudyError> for CliError {
     fn from(error: StudyError) -> Self {
@@ -27,7 +27,7 @@ pub struct Publication {
 }
 
 impl Publication {
-    /// Puts files into the folder that was asked for, else into `galpix-out/NAME`, and nowhere where only JSON is
+    /// Puts files into the requested folder, else into `galpix-out/NAME`, and nowhere where only JSON is
     /// printed.
     pub fn usual(out: Option<&PathBuf>, json: bool, name: &str) -> Self {
         let usual = (!json).then(|| Path::new("galpix-out").join(name));
@@ -57,7 +57,7 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
                 reports.push(report);
             }
             Found::Nothing(reason) => {
-                say(&format!("{name}: {}", reason.text()));
+                note(&format!("{name}: {}", reason.text()));
                 silent.push((reason, study.name(source).to_owned()));
             }
         }
@@ -80,7 +80,7 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
 /// Studies a source while a bar shows how it gets on.
 fn one<S: Study>(study: &S, job: &S::Job<'_>, name: &str, to: &Publication) -> Result<Found<S::Report>, CliError> {
     let bar = progress::bar(study.pieces(job), name);
-    let tell = |work: Work<'_>| match work {
+    let notify = |work: Work<'_>| match work {
         Work::Ahead(more) => bar.inc_length(more),
         Work::Done => bar.inc(1),
         Work::DoneWith(name) => {
@@ -88,23 +88,23 @@ fn one<S: Study>(study: &S, job: &S::Job<'_>, name: &str, to: &Publication) -> R
             bar.inc(1);
         }
     };
-    let found = study.study(job, &Stage { out: to.out.as_deref(), tell: &tell })?;
+    let found = study.study(job, &Stage { out: to.out.as_deref(), notify: &notify })?;
     bar.finish_and_clear();
     Ok(found)
 }
 
-/// Writes the files; then prints the document if JSON was asked for, else the path of the page.
+/// Writes the files; then prints the document if JSON was requested, else the path of the page.
 fn publish<S: Study>(study: &S, document: &Document<S::Extra, S::Report>, to: &Publication) -> Result<(), CliError> {
     let mut page = None;
     if let Some(out) = &to.out {
         let files = study.files(document)?;
         files.iter().try_for_each(|file| write(out, file))?;
-        page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != Told::Nowhere);
+        page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != PathPrinted::Nowhere);
     }
     if to.json {
         print(&study.json(document).map_err(|error| CliError::Failed(error.to_string()))?)?;
-        if let (Some(page), Told::Always) = (page, S::PATH) {
-            say(&format!("the report is in {}", page.display()));
+        if let (Some(page), PathPrinted::Always) = (page, S::PATH) {
+            note(&format!("the report is in {}", page.display()));
         }
         return Ok(());
     }

@@ -13,9 +13,9 @@ use crate::study::error::Plan;
 use crate::study::error::design::{Extent, Kept};
 use crate::study::job::Request;
 
-/// Which lanes a galpixel carries beside class and colour.
+/// Which fields a galpixel carries besides class and colour.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum LaneChoice {
+enum FieldChoice {
     /// None: the picture stands still
     Still,
     /// Velocity in x and y, depth that does not move
@@ -30,15 +30,15 @@ enum LaneChoice {
     Luminosity,
 }
 
-impl From<LaneChoice> for Kept {
-    fn from(choice: LaneChoice) -> Self {
+impl From<FieldChoice> for Kept {
+    fn from(choice: FieldChoice) -> Self {
         match choice {
-            LaneChoice::Still => Self::Still,
-            LaneChoice::Velocity => Self::Velocity,
-            LaneChoice::VelocityDepth => Self::VelocityDepth,
-            LaneChoice::Acceleration => Self::Acceleration,
-            LaneChoice::Full => Self::Full,
-            LaneChoice::Luminosity => Self::Luminosity,
+            FieldChoice::Still => Self::Still,
+            FieldChoice::Velocity => Self::Velocity,
+            FieldChoice::VelocityDepth => Self::VelocityDepth,
+            FieldChoice::Acceleration => Self::Acceleration,
+            FieldChoice::Full => Self::Full,
+            FieldChoice::Luminosity => Self::Luminosity,
         }
     }
 }
@@ -50,21 +50,21 @@ pub struct Error {
     /// Built-in scenes' names, or paths of a capture.toml or of its folder
     #[arg(required = true, value_name = "SOURCE")]
     sources: Vec<String>,
-    /// Few points: two budgets beside the derived one, two rungs
+    /// Few points: the derived budget and two more, two fill modes
     #[arg(long, conflicts_with = "full")]
     quick: bool,
-    /// Many points: all lanes by all roundings by all rungs, all budgets by all roundings
+    /// Many points: all fields by all roundings by all fill modes, all budgets by all roundings
     #[arg(long)]
     full: bool,
-    /// Lanes to choose from [default: all that the source has a use for]
-    #[arg(long, value_enum, value_name = "LANES", value_delimiter = ',')]
-    lanes: Vec<LaneChoice>,
+    /// Fields to choose from [default: all that the source has a use for]
+    #[arg(long = "lanes", value_enum, value_name = "FIELDS", value_delimiter = ',')]
+    fields: Vec<FieldChoice>,
     /// Roundings to choose from [default: all]
     #[arg(long, value_enum, value_name = "ROUNDINGS", value_delimiter = ',')]
     roundings: Vec<RoundingChoice>,
-    /// Rungs to choose from [default: all that do not inpaint]
-    #[arg(long, value_enum, value_name = "RUNGS", value_delimiter = ',')]
-    rungs: Vec<FillChoice>,
+    /// Fill modes to choose from [default: all that do not inpaint]
+    #[arg(long = "rungs", value_enum, value_name = "MODES", value_delimiter = ',')]
+    fills: Vec<FillChoice>,
     #[command(flatten)]
     inpainting: Inpainting,
     /// Frames to extrapolate [default: what the source is meant for]
@@ -102,12 +102,12 @@ impl Error {
     }
 
     fn plan(&self) -> Plan {
-        let mut rungs: Vec<Fill> = self.rungs.iter().map(|&rung| self.inpainting.of(rung.into())).collect();
+        let mut fills: Vec<Fill> = self.fills.iter().map(|&fill| self.inpainting.of(fill.into())).collect();
         let mut roundings: Vec<Rounding> = self.roundings.iter().map(|&rounding| rounding.into()).collect();
-        let mut kept: Vec<Kept> = self.lanes.iter().map(|&lanes| lanes.into()).collect();
+        let mut kept: Vec<Kept> = self.fields.iter().map(|&fields| fields.into()).collect();
         let place = |rounding: &Rounding| Rounding::ALL.iter().position(|other| other == rounding);
-        rungs.sort_unstable_by_key(|rung| Fill::all().iter().position(|other| other.name() == rung.name()));
-        rungs.dedup();
+        fills.sort_unstable_by_key(|fill| Fill::all().iter().position(|other| other.name() == fill.name()));
+        fills.dedup();
         roundings.sort_unstable_by_key(place);
         roundings.dedup();
         kept.sort_unstable();
@@ -129,7 +129,7 @@ impl Error {
             },
             kept: all(kept.is_empty()).map_or(kept, |()| Kept::ALL.to_vec()),
             roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
-            rungs: all(rungs.is_empty()).map_or(rungs, |()| FillMode::ALL.map(Fill::from).to_vec()),
+            fills: all(fills.is_empty()).map_or(fills, |()| FillMode::ALL.map(Fill::from).to_vec()),
             extent,
         }
     }

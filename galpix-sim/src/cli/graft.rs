@@ -24,7 +24,7 @@ pub struct Graft {
     /// Frames from one rendering of an object to the next; the background gets what is left of the rate
     #[arg(long, value_name = "N", default_value_t = Plan::default().objects_every, value_parser = clap::value_parser!(u32).range(1..=64))]
     objects: u32,
-    /// Folder for graft.json and the last picture of each way [default: nothing is written]
+    /// Folder for graft.json and the last picture of each strategy [default: nothing is written]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON
@@ -33,7 +33,7 @@ pub struct Graft {
 }
 
 impl Graft {
-    /// Compares the ways.
+    /// Compares the strategies.
     pub fn run(&self) -> Result<(), CliError> {
         let Some(scene) = scene::find(&self.scene) else {
             let name = printable(&self.scene);

@@ -1,8 +1,8 @@
-//! Arguments that say what is handed over beside the first layer.
+//! Arguments for hidden layers.
 
 use clap::{Args, ValueEnum};
 
-use crate::source::hidden::{Kind, RADIUS, SEPARATION, Way};
+use crate::source::hidden::{Kind, RADIUS, SEPARATION, Strategy};
 
 /// What is known behind the first layer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -18,10 +18,10 @@ pub enum HiddenChoice {
     Unlimited,
 }
 
-/// What is handed over beside the first layer, and how.
+/// Which hidden layers are handed over, and how.
 #[derive(Clone, Debug, Default, Args)]
 pub struct HiddenArguments {
-    /// What is handed over beside the first layer
+    /// Which hidden samples are handed over
     #[arg(long, value_enum, value_name = "KIND", default_value_t)]
     hidden: HiddenChoice,
     /// For second: how far it lies behind the first layer at least, as a part of the depth range [default: 1/64]
@@ -33,20 +33,20 @@ pub struct HiddenArguments {
 }
 
 impl HiddenArguments {
-    /// The way that these arguments mean.
-    pub fn way(&self) -> Way {
+    /// Returns the strategy that these arguments mean.
+    pub fn strategy(&self) -> Strategy {
         let separation = self.separation.unwrap_or(SEPARATION);
         let kind = match self.hidden {
-            HiddenChoice::None => return Way::ONE,
+            HiddenChoice::None => return Strategy::ONE,
             HiddenChoice::Second => Kind::Second { separation },
             HiddenChoice::Ddoc => Kind::Ddoc { radius: RADIUS },
             HiddenChoice::Unlimited => Kind::Unlimited,
         };
-        Way { kind, culled: !self.uncut, ..Way::ONE }
+        Strategy { kind, culled: !self.uncut, ..Strategy::ONE }
     }
 }
 
-/// A part of the depth range that two layers are apart, from an argument.
+/// Returns a part of the depth range that two layers are apart, from an argument.
 pub fn separation(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(part) if (0.0..1.0).contains(&part) => Ok(part),

@@ -36,10 +36,10 @@ pub struct LayersArguments {
 }
 
 impl LayersArguments {
-    /// Compares the ways.
+    /// Compares the strategies.
     pub fn run(&self) -> Result<(), CliError> {
         let request = Request { frames: self.frames, ..Request::default() };
-        let plan = Plan { request, ways: layers::ways(self.separation) };
+        let plan = Plan { request, strategies: layers::strategies(self.separation) };
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
         drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "layers"))
     }

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
-/// Why a command did not do what it was asked.
+/// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
     /// Arguments or input that cannot be used: exit code 2.
@@ -41,7 +41,7 @@ impl CliError {
         Self::Unusable(reason.to_string())
     }
 
-    /// A file or folder that cannot be written.
+    /// Creates a file or folder that cannot be written.
     fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Self {
         Self::Unusable(format!("{} cannot be written ({error}): choose another folder with --out", path.display()))
     }
@@ -66,19 +66,19 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
-    /// Error against run time over budgets, lanes, roundings and rungs: tables, plots, the Pareto front
+    /// Error against run time over budgets, fields, roundings and fill modes: tables, plots, the Pareto front
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
     Fills(fills::Fills),
-    /// The ways to know what was hidden side by side: samples, missing pixels, error, cost
+    /// The strategies for hidden samples compared: samples, missing pixels, error, cost
     Layers(layers::LayersArguments),
     /// Objects updated at rates of their own against updates of the whole view, at the same number of cells a second
     Graft(graft::Graft),
-    /// Depth images that look around edges: what a frame from beside them lacks, against plain depth images
+    /// Depth images that look around edges: what a frame from another place lacks, compared with plain depth images
     Ddoc(ddoc::Ddoc),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
-    /// Says what a source does not need for a position error: lanes, bits, rounding, rung
+    /// Says what a source does not need for a position error: fields, bits, rounding, fill mode
     Plan(plan::PlanArguments),
     /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
     Stability(stability::Stability),
@@ -90,7 +90,7 @@ enum Command {
     Vectors(vectors::Vectors),
 }
 
-/// Parses the arguments, does what they say, and tells how it ended.
+/// Parses the arguments, runs the command, and returns how it ended.
 #[must_use]
 pub fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -115,13 +115,13 @@ pub fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            say(&format!("galpix: {error}"));
+            note(&format!("galpix: {error}"));
             ExitCode::from(if matches!(error, CliError::Unusable(_)) { 2 } else { 1 })
         }
     }
 }
 
-/// Prints the help or the version that was asked for, or why the arguments cannot be used, in one sentence.
+/// Prints help or version if requested, or why the arguments cannot be used, in one sentence.
 fn unparsed(error: &clap::Error) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
         // A reader that has gone away is no failure.
@@ -136,21 +136,21 @@ fn unparsed(error: &clap::Error) -> ExitCode {
         .filter(|line| !line.is_empty())
         .collect();
     let reason = reason.join(" ");
-    say(&format!("galpix: {}; `--help` tells what can be given", printable(reason.trim_start_matches("error: "))));
+    note(&format!("galpix: {}; `--help` lists what can be given", printable(reason.trim_start_matches("error: "))));
     ExitCode::from(2)
 }
 
 /// Writes a line on standard error. A reader that has gone away is no failure.
-fn say(text: &str) {
+fn note(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// A text from outside without the characters that command a terminal.
+/// Returns a text from outside without the characters that command a terminal.
 fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// The same for a text of several lines.
+/// Returns the same for a text of several lines.
 fn printable_lines(text: &str) -> String {
     text.lines().map(printable).collect::<Vec<_>>().join("\n")
 }

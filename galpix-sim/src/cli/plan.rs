@@ -89,7 +89,7 @@ fn text(planning: &Planning) -> String {
     row("motion bits x", String::new(), &|plan| widths(&plan.motion.x));
     row("motion bits y", String::new(), &|plan| widths(&plan.motion.y));
     row("rounding", "low-discrepancy".to_owned(), &|plan| plan.motion.rounding.to_owned());
-    row("rung", "extend".to_owned(), &|plan| plan.rung.to_owned());
+    row("fill mode", "extend".to_owned(), &|plan| plan.fill_mode.to_owned());
     row("bits a galpixel", full.used_bits_per_galpixel.to_string(), &|plan| plan.used_bits_per_galpixel.to_string());
     row("bytes, in words", full.stored_bytes_per_galpixel.to_string(), &|plan| {
         plan.stored_bytes_per_galpixel.to_string()

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::choices::Extrapolation;
 use super::hidden::HiddenArguments;
-use super::{CliError, print, print_json, printable, progress, say};
+use super::{CliError, note, print, print_json, printable, progress};
 use crate::output::column::{Column, Table, Value};
 use crate::output::save::file_name;
 use crate::source::Source;
@@ -33,10 +33,10 @@ pub struct Run {
 impl Run {
     /// Runs the source.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = Request { way: self.hidden.way(), ..self.extrapolation.request() };
+        let request = Request { strategy: self.hidden.strategy(), ..self.extrapolation.request() };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         let job = Job::resolve(&source, &request).map_err(CliError::unusable)?;
-        run::check_way(&source, request.way).map_err(CliError::unusable)?;
+        run::check_strategy(&source, request.strategy).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
         std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
         let bar = progress::bar(u64::from(job.frames), &printable(source.name()));
@@ -53,7 +53,7 @@ impl Run {
         .map_err(CliError::unusable)?;
         bar.finish_and_clear();
         written?;
-        say(&format!("{} frames and the update in {}", report.frames.len(), out.display()));
+        note(&format!("{} frames and the update in {}", report.frames.len(), out.display()));
         if self.json { print_json(&report) } else { print(&table(&report)) }
     }
 }
@@ -103,11 +103,11 @@ fn table(report: &RunReport) -> String {
         ),
     ];
     if let Some(hidden) = &report.hidden {
-        let said = format!(
-            "{}: {} layers beside the base; {} samples behind the first layer, {} handed over, {} shown",
-            hidden.way, hidden.layers, hidden.offered, hidden.kept, hidden.used
+        let line = format!(
+            "{}: {} hidden layers; {} samples behind the first layer, {} handed over, {} shown",
+            hidden.strategy, hidden.layers, hidden.offered, hidden.kept, hidden.used
         );
-        lines.push(said);
+        lines.push(line);
     }
     let columns = columns();
     lines.extend(Table::new(&columns, &report.frames).lines(&report.frames));

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use galpix_link::panel::{Description, Lcd, Oled, Panel};
 
-use super::{CliError, print, print_json, printable, say};
+use super::{CliError, note, print, print_json, printable};
 use crate::cli::progress;
 use crate::send::{self, Address, Report, Request};
 use crate::source::Source;
@@ -61,7 +61,7 @@ impl Send {
         let unusable = |error: &dyn std::fmt::Display| CliError::Unusable(printable(&error.to_string()));
         let source = Source::open(&self.source, &ImportOptions::default()).map_err(CliError::unusable)?;
         if source.update().overlay.is_some() {
-            say(&format!(
+            note(&format!(
                 "{}: what is pinned over the picture is not sent, the line has no message for it",
                 printable(source.name())
             ));
@@ -102,7 +102,7 @@ fn text(report: &Report) -> String {
         ));
     }
     lines.push(match &report.device {
-        None => "nobody answers here: what arrives is not known".to_owned(),
+        None => "nothing answers here: what arrives is not known".to_owned(),
         Some(device) => {
             let causes = device.rejected.iter().filter(|(_, count)| **count > 0);
             let causes: Vec<_> = causes.map(|(cause, count)| format!("{count} {}", cause.replace('_', " "))).collect();

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, print, say};
+use super::{CliError, note, print};
 use crate::output::html::write_atomically;
 use crate::vectors;
 
@@ -32,7 +32,7 @@ impl Vectors {
         let manifest = vectors::write(self.seed, &cases, save)?;
         let files: usize = manifest.cases.iter().map(|case| case.files.len()).sum();
         let frames: usize = manifest.cases.iter().map(|case| case.frames.len()).sum();
-        say(&format!("{} cases, {frames} frames, {files} files", manifest.cases.len()));
+        note(&format!("{} cases, {frames} frames, {files} files", manifest.cases.len()));
         print(&self.out.join("manifest.json").display().to_string())
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Base {
 
 impl Base {
     pub fn new(update: &Update, format: Dynamic) -> Result<Self, EngineError> {
-        let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
+        let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];
         let grid = grid(update, &mut starts)?;
         let words = Galpixmap::words(&grid, format);
         let (winners, edges) = (vec![0; grid.cells() as usize], vec![0; stages::words(&grid)]);

@@ -1,4 +1,4 @@
-//! What is put into holes, as the command line means it: a rung of the core's ladder, or inpainting on top of its
+//! What is put into holes, as the command line means it: a fill mode of the core, or inpainting after its
 //! richest one.
 
 use galpix_core::FillMode;
@@ -8,7 +8,7 @@ pub use galpix_core::inpaint::Gamma;
 
 mod stage;
 
-/// Which picture inpainting makes of a hole.
+/// The kind of inpainting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kind {
     /// Push-pull: smooth colour from all around.
@@ -36,7 +36,7 @@ pub struct Inpaint {
 }
 
 impl Inpaint {
-    /// A kind with its usual gamma, depth aware, everywhere.
+    /// Creates a kind with its usual gamma, depth aware, everywhere.
     #[must_use]
     pub const fn new(kind: Kind) -> Self {
         let gamma = match kind {
@@ -50,21 +50,21 @@ impl Inpaint {
 /// What is put into holes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fill {
-    /// What the core's ladder puts there.
-    Rung(FillMode),
-    /// What the richest rung puts there, inpainted in the frame in which the hole opens.
+    /// What a fill mode of the core puts there.
+    Mode(FillMode),
+    /// What the richest fill mode puts there, inpainted in the frame in which the hole opens.
     Inpaint(Inpaint),
 }
 
 impl Default for Fill {
     fn default() -> Self {
-        Self::Rung(FillMode::default())
+        Self::Mode(FillMode::default())
     }
 }
 
 impl From<FillMode> for Fill {
-    fn from(rung: FillMode) -> Self {
-        Self::Rung(rung)
+    fn from(mode: FillMode) -> Self {
+        Self::Mode(mode)
     }
 }
 
@@ -75,43 +75,43 @@ impl From<Kind> for Fill {
 }
 
 impl Fill {
-    /// One of each name, from cheap to rich.
+    /// Returns one of each name, from cheap to rich.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let inpainted = Kind::ALL.map(Self::from);
         FillMode::ALL.into_iter().map(Self::from).chain(inpainted).collect()
     }
 
-    /// The name on the command line and in JSON.
+    /// Returns the name on the command line and in JSON.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Rung(rung) => rung.name(),
+            Self::Mode(mode) => mode.name(),
             Self::Inpaint(Inpaint { kind: Kind::PushPull, .. }) => "push-pull",
             Self::Inpaint(Inpaint { kind: Kind::Metamer, .. }) => "metamer",
         }
     }
 
-    /// The rung of the core's ladder that a frame is made with.
+    /// Returns the fill mode of the core with which a frame is made.
     #[must_use]
-    pub const fn rung(self) -> FillMode {
+    pub const fn mode(self) -> FillMode {
         match self {
-            Self::Rung(rung) => rung,
+            Self::Mode(mode) => mode,
             Self::Inpaint(_) => FillMode::Extend,
         }
     }
 
-    /// What follows each frame.
+    /// Returns what follows each frame.
     #[must_use]
     pub const fn inpaint(self) -> Option<Inpaint> {
         match self {
-            Self::Rung(_) => None,
+            Self::Mode(_) => None,
             Self::Inpaint(inpaint) => Some(inpaint),
         }
     }
 }
 
-/// Whether a cell of the display lies within the disc of this radius around its middle.
+/// Returns whether a cell of the display lies within the disc of this radius around its middle.
 #[must_use]
 pub fn in_fovea(fovea: Option<u32>, cell: usize, width: usize, height: usize) -> bool {
     // From the middle in half cells, so that it lies between cells where a side is even.
@@ -133,12 +133,12 @@ mod tests {
     }
 
     #[test]
-    fn every_fill_has_a_name_of_its_own_and_inpainting_stands_on_the_richest_rung() {
+    fn every_fill_has_a_name_of_its_own_and_inpainting_stands_on_the_richest_mode() {
         let names: std::collections::HashSet<&str> = Fill::all().into_iter().map(Fill::name).collect();
         assert_eq!(names.len(), 6 + Kind::ALL.len());
         for fill in Fill::all() {
-            assert_eq!(fill.inpaint().is_some(), !FillMode::ALL.iter().any(|rung| rung.name() == fill.name()));
-            assert!(fill.inpaint().is_none() || fill.rung() == FillMode::Extend);
+            assert_eq!(fill.inpaint().is_some(), !FillMode::ALL.iter().any(|mode| mode.name() == fill.name()));
+            assert!(fill.inpaint().is_none() || fill.mode() == FillMode::Extend);
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What is handed over beside an update, and the memory that it takes as layers of the core.
+//! Hidden layers of an update, and the memory that they take as layers of the core.
 
 use galpix_core::layers::{Displacement, Layer, Stationary, composite_words, displacement_word};
 use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
@@ -6,13 +6,13 @@ use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
 use super::{LoadTally, load_at};
 use crate::update::Update;
 
-/// A layer beside the update, over the same cells.
+/// A hidden layer of an update, over the same cells.
 #[derive(Clone, Copy, Debug)]
-pub enum Beside<'u> {
+pub enum HiddenLayer<'u> {
     /// Its samples are where they are seen, and move like the update's.
     Moving(&'u Update),
     /// Its samples are stored elsewhere, see [`Layer::stationary`].
-    Anchored {
+    Stationary {
         /// The samples, where they are stored.
         update: &'u Update,
         /// From there to the cells in which they are seen.
@@ -22,12 +22,12 @@ pub enum Beside<'u> {
     },
 }
 
-impl<'u> Beside<'u> {
-    /// Its samples.
+impl<'u> HiddenLayer<'u> {
+    /// Returns its samples.
     #[must_use]
     pub const fn update(&self) -> &'u Update {
         match self {
-            Self::Moving(update) | Self::Anchored { update, .. } => update,
+            Self::Moving(update) | Self::Stationary { update, .. } => update,
         }
     }
 
@@ -35,7 +35,7 @@ impl<'u> Beside<'u> {
     pub(super) fn load(&self, map: &mut Galpixmap<'_, Dynamic>) -> LoadTally {
         let offset = |sample: usize| match self {
             Self::Moving(_) => [0.0; 2],
-            Self::Anchored { offsets, .. } => offsets.get(sample).copied().unwrap_or_default(),
+            Self::Stationary { offsets, .. } => offsets.get(sample).copied().unwrap_or_default(),
         };
         load_at(self.update(), offset, map)
     }
@@ -46,38 +46,38 @@ pub(super) struct Memory {
     maps: [Vec<u32>; 3],
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
     displacements: Vec<u32>,
 }
 
 impl Memory {
     /// For a layer over a grid.
-    pub fn new(grid: &Grid<'_>, format: Dynamic, beside: &Beside<'_>) -> Self {
+    pub fn new(grid: &Grid<'_>, format: Dynamic, hidden: &HiddenLayer<'_>) -> Self {
         let map = || vec![0; Galpixmap::words(grid, format)];
         let winners = vec![0; grid.cells() as usize];
-        let seats = vec![0; composite_words(grid)];
-        match beside {
-            Beside::Moving(_) => {
+        let composited = vec![0; composite_words(grid)];
+        match hidden {
+            HiddenLayer::Moving(_) => {
                 let edges = vec![0; stages::words(grid)];
-                Self { maps: [map(), map(), Vec::new()], winners, edges, seats, displacements: Vec::new() }
+                Self { maps: [map(), map(), Vec::new()], winners, edges, composited, displacements: Vec::new() }
             }
-            Beside::Anchored { displacements, .. } => {
+            HiddenLayer::Stationary { displacements, .. } => {
                 let displacements = displacements.iter().map(|&place| displacement_word(place)).collect();
-                Self { maps: [map(), map(), map()], winners, edges: Vec::new(), seats, displacements }
+                Self { maps: [map(), map(), map()], winners, edges: Vec::new(), composited, displacements }
             }
         }
     }
 
-    /// The layer over this memory, still empty.
+    /// Returns the layer over this memory, still empty.
     ///
-    /// *Errors:* an anchored layer with fewer displacements than cells.
+    /// *Errors:* a stationary-source layer with fewer displacements than cells.
     pub fn layer<'p>(&'p mut self, grid: Grid<'p>, format: Dynamic) -> Result<Layer<'p, Dynamic>, SetupError> {
-        let Self { maps: [front, back, stored], winners, edges, seats, displacements } = self;
+        let Self { maps: [front, back, stored], winners, edges, composited, displacements } = self;
         let (front, back) = (Galpixmap::new(grid, format, front)?, Galpixmap::new(grid, format, back)?);
         if stored.is_empty() {
-            return Layer::new(front, back, Scratch { winners, edges }, seats);
+            return Layer::new(front, back, Scratch { winners, edges }, composited);
         }
         let stored = Galpixmap::new(grid, format, stored)?;
-        Layer::stationary(Stationary { stored, displacements }, front, back, winners, seats)
+        Layer::stationary(Stationary { stored, displacements }, front, back, winners, composited)
     }
 }

@@ -3,7 +3,7 @@
 use fixed::types::I32F32;
 use galpix_core::{Class, Format, Galpixel, Galpixmap, Grid, Margin, SetupError};
 
-use crate::update::{Known, Sample, Update, Wings};
+use crate::update::{self, Known, Sample, Update};
 
 /// What entered with the update.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
@@ -21,7 +21,7 @@ pub fn load<F: Format>(update: &Update, map: &mut Galpixmap<'_, F>) -> LoadTally
     load_at(update, |_| [0.0; 2], map)
 }
 
-/// The same with samples that are not in the middle of their cells.
+/// Returns the same with samples that are not in the middle of their cells.
 pub(super) fn load_at<F: Format>(
     update: &Update,
     offset: impl Fn(usize) -> [f64; 2],
@@ -41,7 +41,7 @@ pub(super) fn load_at<F: Format>(
     tally
 }
 
-/// A sample as a galpixel in fixed point: 32 fraction bits, so that the rounding that counts is the budget's.
+/// Returns a sample as a galpixel in fixed point: 32 fraction bits, so that the rounding that counts is the budget's.
 #[must_use]
 pub fn galpixel(sample: &Sample) -> Galpixel {
     if sample.known == Known::ColourOnly {
@@ -59,14 +59,19 @@ pub fn galpixel(sample: &Sample) -> Galpixel {
     }
 }
 
-/// The wings of an update, as the core has them.
-pub(crate) fn margin(wings: Wings) -> Margin {
+/// Converts the margin of an update to that of a grid.
+pub(crate) fn margin(margin: update::Margin) -> Margin {
     let cells = |cells: usize| u32::try_from(cells).unwrap_or(u32::MAX);
-    Margin { left: cells(wings.left), right: cells(wings.right), top: cells(wings.top), bottom: cells(wings.bottom) }
+    Margin {
+        left: cells(margin.left),
+        right: cells(margin.right),
+        top: cells(margin.top),
+        bottom: cells(margin.bottom),
+    }
 }
 
-/// The grid of an update.
+/// Returns the grid of an update.
 pub(crate) fn grid<'g>(update: &Update, starts: &'g mut [u32]) -> Result<Grid<'g>, SetupError> {
     let (width, height) = (update.display_width() as u32, update.display_height() as u32);
-    Grid::new(width, height, margin(update.wings), starts)
+    Grid::new(width, height, margin(update.margin), starts)
 }

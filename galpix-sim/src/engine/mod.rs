@@ -1,4 +1,4 @@
-//! The engine over memory of the host: one update in, with layers beside it or without, frames out, with what is needed
+//! The engine over memory of the host: one update in, with hidden layers or without, frames out, with what is needed
 //! to judge them.
 
 mod base;
@@ -15,7 +15,7 @@ use galpix_core::layers::{Layer, Layers};
 use galpix_core::overlay::Overlay;
 use galpix_core::{BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally};
 
-pub use layer::Beside;
+pub use layer::HiddenLayer;
 pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
@@ -28,8 +28,8 @@ use fill::{Inpaint, Inpainter};
 use load::load_at;
 use origins::Origins;
 
-/// Layers that can be handed over beside an update.
-pub const MAX_BESIDE: usize = 8;
+/// The most hidden layers of an update.
+pub const MAX_HIDDEN: usize = 8;
 
 /// Why a run could not be set up.
 #[derive(Debug, thiserror::Error)]
@@ -51,19 +51,17 @@ pub enum EngineError {
         of: [usize; 2],
     },
     /// More layers than there is room for.
-    #[error(
-        "{0} layers beside the update are more than the {MAX_BESIDE} that there is room for: leave the farthest out"
-    )]
+    #[error("{0} hidden layers are more than the {MAX_HIDDEN} that there is room for: leave the farthest out")]
     TooManyLayers(usize),
 }
 
-/// What a run told beside its frames.
+/// What a run reports besides its frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ran {
     /// What entered with the update.
     pub loaded: LoadTally,
-    /// What entered with each layer beside it.
-    pub beside: Vec<LoadTally>,
+    /// What entered with each hidden layer.
+    pub hidden: Vec<LoadTally>,
     /// For each sample, by its number in [`Frame::origins`], whether the display ever showed it.
     pub used: Vec<bool>,
 }
@@ -92,11 +90,11 @@ pub struct Engine {
     scan_out: ScanOut,
 }
 
-/// An update, and the layers beside it, the first of which is layer 1.
+/// An update and its hidden layers, the first of which is layer 1.
 #[derive(Clone, Copy)]
 struct Delivered<'u> {
     update: &'u Update,
-    beside: &'u [Beside<'u>],
+    hidden: &'u [HiddenLayer<'u>],
 }
 
 impl Engine {
@@ -106,19 +104,20 @@ impl Engine {
         Self { format, settings, inpaint: None, constant_time: false, scan_out: ScanOut::Nearest }
     }
 
-    /// The same with inpainting after each frame; its fill mode should be [`crate::engine::fill::Fill::rung`]'s.
+    /// Returns the same with inpainting after each frame; its fill mode should be
+    /// [`crate::engine::fill::Fill::mode`]'s.
     #[must_use]
     pub const fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
         Self { inpaint, ..self }
     }
 
-    /// The same with pictures that are made in another way.
+    /// Returns the same with pictures that are made in another way.
     #[must_use]
     pub const fn scanning_out(self, scan_out: ScanOut) -> Self {
         Self { scan_out, ..self }
     }
 
-    /// The same by instructions that do not depend on the picture, if `constant_time`.
+    /// Returns the same by instructions that do not depend on the picture, if `constant_time`.
     #[must_use]
     pub const fn constant_time(self, constant_time: bool) -> Self {
         Self { constant_time, ..self }
@@ -131,56 +130,56 @@ impl Engine {
         Ok(self.run_layers(update, &[], frames, visit)?.loaded)
     }
 
-    /// The same with layers beside the update, the first of which is layer 1.
+    /// Returns the same with hidden layers, the first of which is layer 1.
     ///
-    /// *Errors:* an update that cannot be laid out, layers of another size, more than [`MAX_BESIDE`] of them.
+    /// *Errors:* an update that cannot be laid out, layers of another size, more than [`MAX_HIDDEN`] of them.
     pub fn run_layers(
         &self,
         update: &Update,
-        beside: &[Beside<'_>],
+        hidden: &[HiddenLayer<'_>],
         frames: u32,
         mut visit: impl FnMut(&Frame<'_>),
     ) -> Result<Ran, EngineError> {
         let of = [update.width, update.height];
         let size = |update: &Update| [update.width, update.height];
         if let Some(other) =
-            beside.iter().map(Beside::update).find(|other| size(other) != of || other.wings != update.wings)
+            hidden.iter().map(HiddenLayer::update).find(|other| size(other) != of || other.margin != update.margin)
         {
             return Err(EngineError::LayerSize { width: other.width, height: other.height, of });
         }
-        if beside.len() > MAX_BESIDE {
-            return Err(EngineError::TooManyLayers(beside.len()));
+        if hidden.len() > MAX_HIDDEN {
+            return Err(EngineError::TooManyLayers(hidden.len()));
         }
-        let delivered = Delivered { update, beside };
+        let delivered = Delivered { update, hidden };
         let mut memory = Base::new(update, self.format)?;
-        if beside.is_empty() {
+        if hidden.is_empty() {
             let mut controller = memory.controller(update, self.format)?;
             let loaded = load(update, controller.front_mut());
             let step = if self.constant_time { Controller::step_constant_time } else { Controller::step };
             let used = self.frames(Stepped { maps: controller, step }, delivered, frames, &mut visit)?;
-            return Ok(Ran { loaded, beside: Vec::new(), used });
+            return Ok(Ran { loaded, hidden: Vec::new(), used });
         }
         let mut starts = memory.starts.clone();
         let grid = grid(update, &mut starts)?;
         let mut own: Vec<layer::Memory> =
-            beside.iter().map(|beside| layer::Memory::new(&grid, self.format, beside)).collect();
+            hidden.iter().map(|hidden| layer::Memory::new(&grid, self.format, hidden)).collect();
         let base = memory.controller(update, self.format)?;
-        let mut hidden: Vec<Layer<'_, Dynamic>> =
+        let mut own_layers: Vec<Layer<'_, Dynamic>> =
             own.iter_mut().map(|memory| memory.layer(grid, self.format)).collect::<Result<_, _>>()?;
-        let mut layers = Layers::new(base, &mut hidden)?;
+        let mut layers = Layers::new(base, &mut own_layers)?;
         let loaded = layers.layer_mut(0).map(|map| load(update, map)).unwrap_or_default();
-        let store = |(layer, beside): (usize, &Beside<'_>)| layers.layer_mut(layer).map(|map| beside.load(map));
-        let loaded_beside = (1..).zip(beside).filter_map(store).collect();
+        let store = |(layer, hidden): (usize, &HiddenLayer<'_>)| layers.layer_mut(layer).map(|map| hidden.load(map));
+        let loaded_hidden = (1..).zip(hidden).filter_map(store).collect();
         layers.composite();
         let used = self.frames(Stepped { maps: layers, step: Maps::step }, delivered, frames, &mut visit)?;
-        Ok(Ran { loaded, beside: loaded_beside, used })
+        Ok(Ran { loaded, hidden: loaded_hidden, used })
     }
 
     /// Shows the update and `frames` frames; returns which samples were ever shown.
     fn frames<'p>(
         &self,
         Stepped { mut maps, step }: Stepped<impl Maps<'p, Format = Dynamic>>,
-        Delivered { update, beside }: Delivered<'_>,
+        Delivered { update, hidden }: Delivered<'_>,
         frames: u32,
         visit: Visit<'_>,
     ) -> Result<Vec<bool>, EngineError> {
@@ -199,7 +198,7 @@ impl Engine {
         };
         let overlay = overlay.as_ref();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
-        let mut origins = Origins::new(update, beside);
+        let mut origins = Origins::new(update, hidden);
         let mut tally = Tally::default();
         let mut time = Duration::ZERO;
         for number in 0..=frames {
@@ -210,9 +209,9 @@ impl Engine {
                     inpainter.paint(&mut maps, &self.settings);
                 }
                 time = started.elapsed();
-                origins.follow(&maps, beside);
+                origins.follow(&maps, hidden);
             }
-            origins.look(&maps, beside, display_cells(&grid));
+            origins.look(&maps, hidden, display_cells(&grid));
             let (map, origins, settings) = (maps.shown(), &origins.shown, &self.settings);
             visit(&Frame { number, tally, time, map, overlay, settings, scan_out: self.scan_out, origins });
         }
@@ -229,7 +228,7 @@ struct Stepped<M> {
 type Visit<'v> = &'v mut dyn FnMut(&Frame<'_>);
 
 impl Frame<'_> {
-    /// What the display shows.
+    /// Returns what the display shows.
     #[must_use]
     pub fn picture(&self) -> Picture {
         let grid = self.map.grid();
@@ -257,14 +256,14 @@ impl Frame<'_> {
         display_cells(self.map.grid()).map(|cell| self.origins[cell as usize])
     }
 
-    /// The map.
+    /// Returns the map.
     #[must_use]
     pub fn map(&self) -> &Galpixmap<'_, Dynamic> {
         self.map
     }
 
-    /// Every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x, y) in
-    /// cells of the map.
+    /// Returns every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x,
+    /// y) in cells of the map.
     pub fn places(&self) -> impl Iterator<Item = (u32, [f64; 2])> {
         let grid = *self.map.grid();
         (0..grid.height() as i32).flat_map(move |y| {
@@ -280,7 +279,7 @@ impl Frame<'_> {
     }
 }
 
-/// The cells of the display, row by row.
+/// Returns the cells of the display, row by row.
 fn display_cells(grid: &Grid<'_>) -> impl Iterator<Item = u32> {
     let margin = grid.margin();
     let (width, height) = (grid.display_width(), grid.display_height());

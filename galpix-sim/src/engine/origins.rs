@@ -3,7 +3,7 @@
 use galpix_core::stages::FILLED;
 use galpix_core::{Class, Dynamic, Maps};
 
-use super::layer::Beside;
+use super::layer::HiddenLayer;
 use crate::update::{Known, Update};
 
 /// In an origin map: this cell does not hold a galpixel of the update.
@@ -21,10 +21,10 @@ pub(super) struct Origins {
 }
 
 impl Origins {
-    /// Those of the update itself.
-    pub fn new(update: &Update, beside: &[Beside<'_>]) -> Self {
+    /// Returns the origins of the update itself.
+    pub fn new(update: &Update, hidden: &[HiddenLayer<'_>]) -> Self {
         let cells = update.samples.len();
-        let layers = std::iter::once(update).chain(beside.iter().map(Beside::update));
+        let layers = std::iter::once(update).chain(hidden.iter().map(HiddenLayer::update));
         let own: Vec<Vec<u32>> = (0u32..)
             .zip(layers)
             .map(|(layer, update)| {
@@ -35,11 +35,11 @@ impl Origins {
         Self { shown: own[0].clone(), used: vec![false; own.len() * cells], own, cells }
     }
 
-    /// Follows a step; `beside` are the layers that it was made with.
-    pub fn follow<'p>(&mut self, maps: &impl Maps<'p, Format = Dynamic>, beside: &[Beside<'_>]) {
+    /// Follows a step that was made with these hidden layers.
+    pub fn follow<'p>(&mut self, maps: &impl Maps<'p, Format = Dynamic>, hidden: &[HiddenLayer<'_>]) {
         for (layer, own) in self.own.iter_mut().enumerate() {
             // Samples that stay where they are stored keep their numbers.
-            if layer == 0 || matches!(beside[layer - 1], Beside::Moving(_)) {
+            if layer == 0 || matches!(hidden[layer - 1], HiddenLayer::Moving(_)) {
                 *own = maps.winners(layer).iter().map(|&winner| origin(own, winner)).collect();
             }
         }
@@ -49,7 +49,7 @@ impl Origins {
     pub fn look<'p>(
         &mut self,
         maps: &impl Maps<'p, Format = Dynamic>,
-        beside: &[Beside<'_>],
+        hidden: &[HiddenLayer<'_>],
         seen: impl Iterator<Item = u32>,
     ) {
         let shown = (0..self.cells as u32).map(|cell| {
@@ -58,8 +58,8 @@ impl Origins {
             }
             let layer = maps.layer_at(cell);
             let Some(own) = self.own.get(layer) else { return NO_ORIGIN };
-            match layer.checked_sub(1).map(|beside_| &beside[beside_]) {
-                Some(Beside::Anchored { .. }) => {
+            match layer.checked_sub(1).map(|index| &hidden[index]) {
+                Some(HiddenLayer::Stationary { .. }) => {
                     maps.winners(layer).get(cell as usize).map_or(NO_ORIGIN, |&stored| origin(own, stored))
                 }
                 _ => own[cell as usize],
@@ -74,7 +74,7 @@ impl Origins {
     }
 }
 
-/// The origin of what `winner` was.
+/// Returns the origin of what `winner` was.
 fn origin(before: &[u32], winner: u32) -> u32 {
     if winner >= FILLED { NO_ORIGIN } else { before.get(winner as usize).copied().unwrap_or(NO_ORIGIN) }
 }

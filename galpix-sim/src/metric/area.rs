@@ -14,7 +14,7 @@ pub struct Window {
     pub height: usize,
 }
 
-/// Whether each cell is connected with the border of the picture by set cells.
+/// Returns whether each cell is connected with the border of the picture by set cells.
 #[must_use]
 pub fn at_border(set: &[bool], width: usize, height: usize) -> Vec<bool> {
     let mut seen = vec![false; set.len()];
@@ -28,7 +28,7 @@ pub fn at_border(set: &[bool], width: usize, height: usize) -> Vec<bool> {
     seen
 }
 
-/// The connected area with the most cells.
+/// Returns the connected area with the most cells.
 #[must_use]
 pub fn largest(set: &[bool], width: usize) -> Vec<usize> {
     let mut seen = vec![false; set.len()];
@@ -36,7 +36,7 @@ pub fn largest(set: &[bool], width: usize) -> Vec<usize> {
     areas.reduce(|best, area| if area.len() > best.len() { area } else { best }).unwrap_or_default()
 }
 
-/// The cells of the area that `start` belongs to, if it was not seen yet; they are seen then.
+/// Returns the cells of the area that `start` belongs to, if it was not seen yet; they are seen then.
 fn flood(set: &[bool], width: usize, start: usize, seen: &mut [bool]) -> Vec<usize> {
     let mut area = Vec::new();
     let mut reach = |cell: usize, area: &mut Vec<usize>| {
@@ -64,7 +64,8 @@ fn flood(set: &[bool], width: usize, start: usize, seen: &mut [bool]) -> Vec<usi
 }
 
 impl Window {
-    /// The window around some cells with a margin of `margin` cells, as far as the picture goes; `None` around none.
+    /// Creates the window around some cells with a margin of `margin` cells, as far as the picture goes; `None` around
+    /// none.
     #[must_use]
     pub fn around(cells: impl IntoIterator<Item = usize>, margin: usize, width: usize, height: usize) -> Option<Self> {
         let (mut from, mut to) = ([usize::MAX; 2], [0; 2]);
@@ -95,7 +96,7 @@ impl Window {
         Self { left, top, width, height }
     }
 
-    /// What belongs to the cells of the window, of a picture of `width` columns.
+    /// Returns what belongs to the cells of the window, of a picture of `width` columns.
     #[must_use]
     pub fn of<T: Copy>(&self, cells: &[T], width: usize) -> Vec<T> {
         let row = |y: usize| cells[y * width + self.left..][..self.width].iter().copied();

@@ -7,9 +7,9 @@ use crate::picture::Picture;
 /// Half the side of the window: 7x7 cells.
 const RADIUS: usize = 3;
 
-/// The mean over the counted cells of the variance of luma (code values squared) in the 7x7 cells around each, as many
-/// of them as the picture has. Cells that do not count are set to the truth, so that only what is shown in the others
-/// differs.
+/// Returns the mean over the counted cells of the variance of luma (code values squared) in the 7x7 cells around each,
+/// as many of them as the picture has. Cells that do not count are set to the truth, so that only what is shown in the
+/// others differs.
 ///
 /// With the truth as the shown picture it is what the figure should be: less is blurred, more is noisy.
 #[must_use]
@@ -33,7 +33,8 @@ pub fn variance(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> O
     mean((0..lumas.len()).filter(|&cell| counts(counted, cell)).map(around))
 }
 
-/// The mean change of luma (code values) over the counted cells from one picture to the next: its absolute value.
+/// Returns the mean change of luma (code values) over the counted cells from one picture to the next: its absolute
+/// value.
 #[must_use]
 pub fn change(before: &Picture, after: &Picture, counted: Option<&[bool]>) -> Option<f64> {
     comparable(before, after, counted)?;

@@ -1,9 +1,9 @@
-//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough and how
-//! restless it is.
+//! How far a shown picture is from the truth: PSNR, structural similarity, FLIP, SSIMULACRA2; how rough it is, and
+//! how much it flickers.
 //!
 //! The first three take the shown picture first, the truth second, and an optional mask of the cells that count
 //! (row-major, of the pictures' size; everything counts without it). They answer `None`, never panic, where there is
-//! nothing sound to say: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no
+//! no defined value: sizes that differ (pictures or mask), a picture whose `pixels` do not match its size, no
 //! pixel, none that counts.
 //!
 //! | metric | 8-bit sRGB becomes | range, best |
@@ -24,7 +24,7 @@ pub use local::{change, variance};
 use crate::picture::Picture;
 use nv_flip::FlipImageRgb8;
 
-/// What [`psnr_db`] says of identical pictures, in decibels, so that JSON and plots stay finite.
+/// What [`psnr_db`] returns for identical pictures, in decibels, so that JSON and plots stay finite.
 ///
 /// One channel of one pixel wrong by one step reaches this figure only in a picture of more than 51 000 pixels; larger
 /// pictures with less error than that are capped too.
@@ -34,8 +34,8 @@ pub const PSNR_CAP_DB: f64 = 100.0;
 /// pixels seen from 0.7 m, about 67.
 pub const PIXELS_PER_DEGREE: f32 = nv_flip::DEFAULT_PIXELS_PER_DEGREE;
 
-/// Peak signal-to-noise ratio in decibels, `10 log10(255² / MSE)`, the mean squared error taken over all three channels
-/// of the counted cells, in 8-bit code values. At most [`PSNR_CAP_DB`].
+/// Returns the peak signal-to-noise ratio in decibels, `10 log10(255² / MSE)`, the mean squared error taken over all
+/// three channels of the counted cells, in 8-bit code values. At most [`PSNR_CAP_DB`].
 #[must_use]
 pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
     comparable(shown, truth, counted)?;
@@ -54,8 +54,9 @@ pub fn psnr_db(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Op
     Some((10.0 * (255.0_f64.powi(2) / mean).log10()).min(PSNR_CAP_DB))
 }
 
-/// The PSNR of several pictures of one size taken together, from each one's: that of their mean squared error, so that
-/// a picture without error among them does not outweigh the others. At most [`PSNR_CAP_DB`], which it also is of none.
+/// Returns the PSNR of several pictures of one size taken together, from each one's: that of their mean squared error,
+/// so that a picture without error among them does not outweigh the others. At most [`PSNR_CAP_DB`], which it also is
+/// of none.
 #[must_use]
 pub fn pooled_db(decibels: &[f64]) -> f64 {
     let errors: f64 = decibels.iter().map(|db| if *db >= PSNR_CAP_DB { 0.0 } else { 10_f64.powf(-db / 10.0) }).sum();
@@ -63,7 +64,7 @@ pub fn pooled_db(decibels: &[f64]) -> f64 {
     (-10.0 * mean.log10()).min(PSNR_CAP_DB)
 }
 
-/// Mean structural similarity of luma (Rec. 709 weights on the sRGB code values): 1 for identical pictures.
+/// Returns the mean structural similarity of luma (Rec. 709 weights on the sRGB code values): 1 for identical pictures.
 ///
 /// As Wang et al. 2004 define it, with Gaussian windows of 11x11 and sigma 1.5, averaged over the counted cells whose
 /// window lies inside the picture (over all counted cells where there is none). Cells that do not count are set to the
@@ -74,7 +75,8 @@ pub fn ssim(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
     ssim::mean(&with_truth_where_not_counted(shown, truth, counted), truth, |cell| counts(counted, cell))
 }
 
-/// Mean FLIP error (Andersson et al. 2020) over the counted cells, at [`PIXELS_PER_DEGREE`]: 0 for identical pictures.
+/// Returns the mean FLIP error (Andersson et al. 2020) over the counted cells, at [`PIXELS_PER_DEGREE`]: 0 for
+/// identical pictures.
 ///
 /// What is drawn is how visible the difference is when one flips between the two pictures. Cells that do not count are
 /// set to the truth, so that they cannot bleed into their neighbours through FLIP's filters, and are left out of the
@@ -100,8 +102,8 @@ pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
     Some(sum / cells as f64)
 }
 
-/// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to tell, 30 and below is poor.
-/// `None` for pictures with a side below 8 pixels.
+/// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to distinguish, 30 and below
+/// is poor. `None` for pictures with a side below 8 pixels.
 #[must_use]
 pub fn ssimulacra2(shown: &Picture, truth: &Picture) -> Option<f64> {
     comparable(shown, truth, None)?;
@@ -115,7 +117,8 @@ pub fn luma(pixel: &[u8; 3]) -> f64 {
     0.2126 * red + 0.7152 * green + 0.0722 * blue
 }
 
-/// `Some` if the two pictures and the mask have one size, hold what their size says, and at least one cell counts.
+/// Returns `Some` if the two pictures and the mask have one size, hold as much as their size says, and at least one
+/// cell counts.
 fn comparable(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<()> {
     let cells = truth.width.checked_mul(truth.height)?;
     let whole = (shown.width, shown.height) == (truth.width, truth.height)

@@ -9,7 +9,7 @@ const SIGMA: f64 = 1.5;
 const C1: f64 = (0.01 * 255.0) * (0.01 * 255.0);
 const C2: f64 = (0.03 * 255.0) * (0.03 * 255.0);
 
-/// One number a cell.
+/// One number per cell.
 struct Plane {
     width: usize,
     height: usize,
@@ -29,7 +29,7 @@ impl Plane {
         Self::of(self.width, self.height, |cell| self.cells[cell] * other.cells[cell])
     }
 
-    /// The Gaussian mean around each cell; the plane is mirrored at its border.
+    /// Returns the Gaussian mean around each cell; the plane is mirrored at its border.
     fn blurred(&self) -> Self {
         let weights: Vec<f64> = (0..=RADIUS).map(|i| (-((i * i) as f64) / (2.0 * SIGMA * SIGMA)).exp()).collect();
         let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
@@ -49,14 +49,15 @@ impl Plane {
     }
 }
 
-/// An index brought back into `0 .. length` by mirrors at both ends (`… 1 0 | 0 1 2 … `).
+/// Returns an index brought back into `0 .. length` by mirrors at both ends (`… 1 0 | 0 1 2 … `).
 fn mirrored(index: isize, length: usize) -> usize {
     let period = 2 * length as isize;
     let within = index.rem_euclid(period) as usize;
     if within < length { within } else { period as usize - 1 - within }
 }
 
-/// The mean over the counted cells whose window lies inside the picture; over all counted ones if there is none.
+/// Returns the mean over the counted cells whose window lies inside the picture; over all counted ones if there is
+/// none.
 ///
 /// The pictures have the same size, and at least one pixel.
 pub fn mean(shown: &Picture, truth: &Picture, counted: impl Fn(usize) -> bool) -> Option<f64> {

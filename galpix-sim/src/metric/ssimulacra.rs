@@ -4,7 +4,7 @@ use ssimulacra2::{ColorPrimaries, Rgb, TransferCharacteristic, compute_frame_ssi
 
 use crate::picture::Picture;
 
-/// The score, or `None` where the library has none.
+/// Returns the score, or `None` where the library has none.
 pub fn score(shown: &Picture, truth: &Picture) -> Option<f64> {
     let rgb = |picture: &Picture| {
         let pixels = picture.pixels.iter().map(|pixel| pixel.map(|channel| f32::from(channel) / 255.0)).collect();

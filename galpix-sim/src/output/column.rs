@@ -1,4 +1,4 @@
-//! The columns of a table, each spelled once: what it says of a row, and where and how it is shown.
+//! The columns of a table, each defined once: its value for a row, and where and how it is shown.
 //!
 //! ```text
 //! rows ─▶ columns ─┬─▶ csv (identifiers, full precision)
@@ -93,7 +93,7 @@ struct Look {
     width: usize,
 }
 
-/// A column of rows `R`. It is shown only where it is told to be: in the CSV, on the terminal, on the page.
+/// A column of rows `R`, shown only where that is requested: in the CSV, on the terminal, on the page.
 pub struct Column<R> {
     get: fn(&R) -> Value,
     csv: Option<&'static str>,
@@ -201,9 +201,9 @@ impl<R> Column<R> {
     }
 }
 
-/// Returns comma-separated values: a line of identifiers and a line a row, quoted where a cell needs it.
+/// Returns comma-separated values: a line of identifiers and a line per row, quoted where a cell needs it.
 ///
-/// *Errors:* none that are known; what the writer says.
+/// *Errors:* those of the writer; none are known.
 pub fn csv<R>(columns: &[Column<R>], rows: impl IntoIterator<Item = R>) -> csv::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let shown: Vec<(&'static str, &Column<R>)> =

@@ -1,7 +1,6 @@
 //! What is written: tables, pages, films, pictures, and files that are whole or not there.
 
 pub mod column;
-pub mod figure;
 pub mod film;
 pub mod html;
 pub mod save;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::{Builder, NamedTempFile};
 
-/// Writes `bytes` to `path` by way of a temporary file in the same folder that is renamed when it is complete and on
+/// Writes `bytes` to `path` through a temporary file in the same folder that is renamed when it is complete and on
 /// disk.
 ///
 /// On an error what was at `path` is as it was, and no temporary file is left. The folder must exist.

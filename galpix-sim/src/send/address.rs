@@ -22,7 +22,7 @@ pub enum Address {
     Tcp(String),
     /// A socket in the file system.
     Unix(PathBuf),
-    /// A file for the stream; nobody answers.
+    /// A file for the stream, which cannot answer.
     File(PathBuf),
     /// A serial device.
     Serial(String),
@@ -31,7 +31,7 @@ pub enum Address {
 /// Why a line cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// Nobody listens there.
+    /// Nothing listens there.
     #[error("{0} cannot be reached ({1}): is the device or its emulator running, and listening there?")]
     Unreachable(Address, io::Error),
     /// The file cannot be made.
@@ -90,7 +90,7 @@ impl FromStr for Address {
 impl Address {
     /// Opens the line; `baud` is the speed of a serial device in bits a second.
     ///
-    /// *Errors:* one sentence that says what, where and how to mend it.
+    /// *Errors:* one sentence that says what, where and how to correct it.
     pub fn open(&self, baud: Option<u32>) -> Result<Box<dyn Line>, OpenError> {
         if baud.is_some() && !matches!(self, Self::Serial(_)) {
             return Err(OpenError::NoBaud(self.clone()));
@@ -121,7 +121,7 @@ impl Address {
     }
 }
 
-/// A connection to the first address of a host that takes one.
+/// Returns a connection to the first address of a host that takes one.
 fn connected(host: &str) -> io::Result<TcpStream> {
     let mut last = io::Error::new(io::ErrorKind::NotFound, "the host has no address");
     for address in host.to_socket_addrs()? {

@@ -5,8 +5,8 @@ use galpix_core::SetupError;
 /// Why an update did not get to the device.
 #[derive(Debug, thiserror::Error)]
 pub enum SendError {
-    /// Nobody can be asked.
-    #[error("{to} cannot say which panel it is for: give --panel oled or --panel lcd")]
+    /// There is no device to query.
+    #[error("{to} cannot report which panel it is for: give --panel oled or --panel lcd")]
     NoPanel {
         /// Where it was sent.
         to: String,
@@ -16,7 +16,7 @@ pub enum SendError {
     OneUpdate {
         /// The capture.
         source_name: String,
-        /// The updates asked for.
+        /// The requested updates.
         updates: u32,
     },
     /// A device with an unknown stored form.
@@ -36,14 +36,14 @@ pub enum SendError {
         /// The device's fingerprint.
         fingerprint: u32,
     },
-    /// A device with another panel than the one asked for.
+    /// A device with another panel than the requested one.
     #[error(
         "the device at {to} is no {wanted} as galpix knows it, but {found}: leave out --panel to send what it shows"
     )]
     OtherPanel {
         /// Where it was sent.
         to: String,
-        /// The panel asked for.
+        /// The requested panel.
         wanted: &'static str,
         /// The device's panel, or that it is unknown.
         found: String,
@@ -76,7 +76,7 @@ pub enum SendError {
         to: String,
         /// Bytes sent.
         bytes: u64,
-        /// What the system says.
+        /// The system's error.
         error: std::io::Error,
     },
     /// The map of the panel cannot be laid out.
@@ -85,7 +85,7 @@ pub enum SendError {
 }
 
 impl SendError {
-    /// Whether the arguments or the device are at fault, and not what happened on the way.
+    /// Returns whether the arguments or the device are at fault, and not the transmission.
     #[must_use]
     pub const fn unusable(&self) -> bool {
         !matches!(self, Self::Standstill { .. } | Self::Broken { .. } | Self::Setup(_))

@@ -17,13 +17,13 @@ pub trait Line: Write {
     /// *Errors:* a line that broke, or whose other end has gone.
     fn receive(&mut self, bytes: &mut [u8], wait: Duration) -> io::Result<usize>;
 
-    /// Whether anybody can answer.
+    /// Returns whether anybody can answer.
     fn answers(&self) -> bool {
         true
     }
 }
 
-/// What a read with a timeout gave: nothing is no error, and an end is one.
+/// Returns what a read with a timeout gave: nothing is no error, and an end is one.
 fn received(read: io::Result<usize>) -> io::Result<usize> {
     match read {
         Ok(0) => Err(ErrorKind::UnexpectedEof.into()),
@@ -34,7 +34,7 @@ fn received(read: io::Result<usize>) -> io::Result<usize> {
     }
 }
 
-/// A timeout that sockets accept: 0 would mean for ever.
+/// Returns a timeout that sockets accept: 0 would mean for ever.
 fn positive(wait: Duration) -> Option<Duration> {
     Some(wait.max(Duration::from_millis(1)))
 }

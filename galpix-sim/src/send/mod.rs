@@ -1,11 +1,11 @@
 //! Updates over a serial line to a display controller: fitted to its panel, stored as its maps store them, row by row.
 //!
-//! The host asks how the device is, lets it show nothing but what is sent, takes its frame counter as the stamp of an
-//! update, sends it, and asks again: the device's own counters say what arrived. A scene gives a new update every few
-//! frames *of the device*, at the scene's time then; a device in lockstep is told to make them. All galpixels of an
-//! update carry its number as their tag. What the frames are is in `docs/link.md`.
+//! The host requests the device's status, makes it show only what is sent, takes its frame counter as the stamp of an
+//! update, sends it, and requests the status again: the device's counters show what arrived. A scene gives a new update
+//! every few frames *of the device*, at the scene's time then; a device in lockstep is told to make them. All galpixels
+//! of an update carry its number as their tag. What the frames are is in `docs/link.md`.
 //!
-//! While an update is on its way the device is held in lockstep: lines are so slow that a whole update takes longer
+//! While an update is on the line the device is held in lockstep: lines are so slow that a whole update takes longer
 //! than the device makes up for. On one that went on, 55 to 72 of the 192 frames of a small panel arrived in time.
 
 mod address;
@@ -35,13 +35,13 @@ use talk::Talk;
 use crate::source::Source;
 use crate::source::fit;
 
-/// Between two questions for the device's frame counter.
+/// The time between two requests for the device's frame counter.
 const POLL: Duration = Duration::from_millis(10);
-/// How long the counter may stand still while an update waits for its frame.
+/// How long the counter may stay unchanged while an update waits for its frame.
 const STANDSTILL: Duration = Duration::from_secs(5);
-/// After this time a device in lockstep that has not moved is told again: what told it was lost.
+/// After this time a device in lockstep that has not moved gets the command again: it was lost.
 const AGAIN: Duration = Duration::from_secs(1);
-/// How often a device is told to wait, or to go on, until it does: what tells it may be lost.
+/// How often the command to wait, or to go on, is repeated until the device obeys: it may be lost.
 const TELLINGS: u32 = 4;
 
 /// What to send.
@@ -74,7 +74,7 @@ impl Request {
     }
 }
 
-/// What was sent, and what the device says of it.
+/// What was sent, and what the device reports.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
     /// The scene or the capture.
@@ -93,7 +93,7 @@ pub struct Report {
     pub bytes: u64,
     /// The time from the first byte to the last answer.
     pub seconds: f64,
-    /// The device's answers; nothing where nobody can answer.
+    /// The device's answers; `None` if nothing can answer.
     pub device: Option<Device>,
 }
 
@@ -114,7 +114,7 @@ pub struct Sent {
     pub saturated: u32,
 }
 
-/// What the device counted from the first question to the last.
+/// What the device counted from the first request to the last.
 #[derive(Clone, Debug, Serialize)]
 pub struct Device {
     /// The frame counter at the end.
@@ -131,7 +131,7 @@ pub struct Device {
 
 /// Sends updates of a source over a line to `to`. `progress` gets the rows sent and the rows to send.
 ///
-/// *Errors:* one sentence that says what, where and how to mend it.
+/// *Errors:* one sentence that says what, where and how to correct it.
 pub fn send(
     source: &Source,
     request: &Request,
@@ -206,7 +206,7 @@ pub fn send(
     })
 }
 
-/// The panel that was asked for, or the one that answers; the two must not differ.
+/// Returns the requested panel, or the one that answers; the two must not differ.
 fn panel_of(wanted: Option<Description>, status: Option<&Status>, to: &str) -> Result<Description, SendError> {
     let to = to.to_owned();
     let Some(&Status { fingerprint, width, height, words, .. }) = status else {
@@ -226,8 +226,8 @@ fn panel_of(wanted: Option<Description>, status: Option<&Status>, to: &str) -> R
     }
 }
 
-/// The galpixels of a source `time` frames after its update, on a panel; their tag is `tag`, of which they keep the low
-/// bits.
+/// Returns the galpixels of a source `time` frames after its update, on a panel; their tag is `tag`, of which they keep
+/// the low bits.
 fn galpixels(source: &Source, time: u32, panel: &Description, tag: u32) -> Vec<Galpixel> {
     let (width, height) = (usize::from(panel.width), usize::from(panel.height));
     let mut galpixels = match source {
@@ -240,7 +240,7 @@ fn galpixels(source: &Source, time: u32, panel: &Description, tag: u32) -> Vec<G
     galpixels
 }
 
-/// Puts the device into lockstep, or takes it out: how it is then.
+/// Puts the device into lockstep, or takes it out, and returns its status.
 fn hold(talk: &mut Talk<'_>, on: bool) -> Result<Option<Status>, SendError> {
     let mut status = None;
     for _ in 0..TELLINGS {
@@ -253,11 +253,11 @@ fn hold(talk: &mut Talk<'_>, on: bool) -> Result<Option<Status>, SendError> {
     Ok(status)
 }
 
-/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it makes these frames because it
-/// is told.
+/// Waits until the device's frame counter is `due` frames beyond `base`. In lockstep it is told to make these
+/// frames.
 fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<Status, SendError> {
     let mut moved = Instant::now();
-    let mut told: Option<(u32, Instant)> = None;
+    let mut commanded: Option<(u32, Instant)> = None;
     loop {
         let Some(now) = talk.ask()? else { return Ok(status) };
         if now.frame.wrapping_sub(base) >= due {
@@ -269,10 +269,10 @@ fn wait(talk: &mut Talk<'_>, mut status: Status, base: u32, due: u32) -> Result<
             return Err(SendError::Standstill { to: talk.to().to_owned(), frame: now.frame });
         }
         // Once a frame, and not once a question: it would run ahead of the answers.
-        if now.lockstep && told.is_none_or(|(frame, when)| frame != now.frame || when.elapsed() > AGAIN) {
+        if now.lockstep && commanded.is_none_or(|(frame, when)| frame != now.frame || when.elapsed() > AGAIN) {
             talk.put(&Frame::Go);
             talk.flush()?;
-            told = Some((now.frame, Instant::now()));
+            commanded = Some((now.frame, Instant::now()));
         }
         status = now;
         std::thread::sleep(POLL);
@@ -291,7 +291,7 @@ fn send_row(talk: &mut Talk<'_>, head: &Galpixels<'_>, row: &[u8], panel: &Descr
     Ok(frames)
 }
 
-/// What a device counted between two answers.
+/// Returns what a device counted between two answers.
 fn device(first: &Status, last: &Status) -> Device {
     let rejected: Rejections = last.rejected.since(&first.rejected);
     Device {

@@ -14,7 +14,7 @@ pub struct Packed {
 }
 
 impl Packed {
-    /// The rows of the panel that it was made for.
+    /// Returns the rows of the panel that it was made for.
     pub fn rows(&self, panel: &Description) -> impl Iterator<Item = &[u8]> {
         self.bytes.chunks((usize::from(panel.width) * panel.bytes_per_galpixel()).max(1))
     }

@@ -1,4 +1,4 @@
-//! Questions and answers over a line, and what is sent in between.
+//! Requests and answers over a line, and what is sent in between.
 
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
@@ -9,13 +9,13 @@ use galpix_link::frame::{Frame, MAX_ENCODED, Status};
 use super::SendError;
 use super::line::Line;
 
-/// How long a device may take to answer a question.
+/// How long a device may take to answer a request.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// What the slowest line carries in a second: a question waits behind everything that was sent before it.
+/// What the slowest line carries in a second: a request waits behind everything that was sent before it.
 const SLOWEST_BYTES_PER_SECOND: u64 = 10_000;
-/// How long a line that has become quiet is listened to, before a question.
+/// How long a line must be quiet before a request.
 const QUIET: Duration = Duration::from_millis(1);
-/// How long at most, where a device never becomes quiet.
+/// The longest wait for that.
 const NEVER_QUIET: Duration = Duration::from_millis(200);
 
 /// The host's end of a line.
@@ -35,12 +35,12 @@ impl<'l> Talk<'l> {
         Self { line, to, decoder: Decoder::new(), waiting: Vec::new(), sent: 0, unanswered: 0 }
     }
 
-    /// What the line is called in messages.
+    /// Returns what the line is called in messages.
     pub const fn to(&self) -> &'l str {
         self.to
     }
 
-    /// Bytes sent.
+    /// Returns the bytes sent.
     pub const fn sent(&self) -> u64 {
         self.sent
     }
@@ -72,7 +72,7 @@ impl<'l> Talk<'l> {
         Ok(())
     }
 
-    /// Asks how the device is, again and again until it answers. Nothing where nobody can answer.
+    /// Requests the device's status until it answers; `None` if nothing can answer.
     pub fn ask(&mut self) -> Result<Option<Status>, SendError> {
         if self.line.answers() {
             // An answer to an earlier question must not be taken for the one to this.

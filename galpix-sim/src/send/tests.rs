@@ -4,7 +4,7 @@ use super::*;
 use crate::source::scene;
 
 #[test]
-fn addresses_are_told_apart() {
+fn addresses_are_distinguished() {
     let address = |text: &str| text.parse::<Address>();
     assert_eq!(address("tcp:localhost:5000"), Ok(Address::Tcp("localhost:5000".to_owned())));
     assert_eq!(address("tcp:[::1]:5000"), Ok(Address::Tcp("[::1]:5000".to_owned())));

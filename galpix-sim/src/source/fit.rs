@@ -2,7 +2,7 @@
 //!
 //! The display's centre comes to the panel's centre, and what the panel's shape cannot show is cropped, alike on both
 //! sides. A scene is sampled anew at the centre of each cell: exact in position and motion. Of a capture each cell
-//! takes the sample that is nearest to its centre, and puts it there: at most half a pixel of the source beside its
+//! takes the sample that is nearest to its centre, and puts it there: at most half a pixel of the source from its
 //! place.
 //!
 //! That half pixel could be kept in the galpixel's offset. It is not, because neighbours would then stand unevenly,
@@ -40,13 +40,13 @@ impl Fit {
         Some(Self { source, panel, scale })
     }
 
-    /// Pixels of the source in a cell of the panel, along a row or a column.
+    /// Returns the pixels of the source in a cell of the panel, along a row or a column.
     #[must_use]
     pub const fn scale(&self) -> f64 {
         self.scale
     }
 
-    /// Where the centre of a cell lies in the source.
+    /// Returns where the centre of a cell lies in the source.
     #[must_use]
     pub fn centre(&self, x: usize, y: usize) -> [f64; 2] {
         let along = |axis: usize, cell: usize| {
@@ -56,7 +56,8 @@ impl Fit {
         [along(0, x), along(1, y)]
     }
 
-    /// The pixel of the source that is nearest to a cell's centre; of two equally near ones the left or upper one.
+    /// Returns the pixel of the source that is nearest to a cell's centre; of two equally near ones the left or upper
+    /// one.
     #[must_use]
     pub fn nearest(&self, x: usize, y: usize) -> [usize; 2] {
         let centre = self.centre(x, y);
@@ -64,8 +65,8 @@ impl Fit {
     }
 }
 
-/// The galpixels of an update on a panel of `width` x `height` cells, row by row; samples whose motion is unknown
-/// become empty cells with their colour. No galpixel where the update or the panel is empty.
+/// Returns the galpixels of an update on a panel of `width` x `height` cells, row by row; samples whose motion is
+/// unknown become empty cells with their colour. No galpixel where the update or the panel is empty.
 #[must_use]
 pub fn update(update: &Update, width: usize, height: usize) -> Vec<Galpixel> {
     let Some(fit) = Fit::new([update.display_width(), update.display_height()], [width, height]) else {
@@ -75,14 +76,14 @@ pub fn update(update: &Update, width: usize, height: usize) -> Vec<Galpixel> {
     cells
         .map(|(x, y)| {
             let [i, j] = fit.nearest(x, y);
-            let index = (j + update.wings.top) * update.width + i + update.wings.left;
+            let index = (j + update.margin.top) * update.width + i + update.margin.left;
             update.samples.get(index).map_or_else(Galpixel::default, |sample| galpixel(sample, fit.scale))
         })
         .collect()
 }
 
-/// The galpixels of a scene at time `t` on a panel of `width` x `height` cells, row by row. None where the panel is
-/// empty.
+/// Returns the galpixels of a scene at time `t` on a panel of `width` x `height` cells, row by row. None where the
+/// panel is empty.
 #[must_use]
 pub fn scene(scene: &dyn Scene, t: f64, width: usize, height: usize) -> Vec<Galpixel> {
     let Some(fit) = Fit::new([scene.width(), scene.height()], [width, height]) else {
@@ -95,7 +96,7 @@ pub fn scene(scene: &dyn Scene, t: f64, width: usize, height: usize) -> Vec<Galp
     (0..height).into_par_iter().flat_map_iter(|y| (0..width).map(move |x| cell(x, y))).collect()
 }
 
-/// A sample at the centre of a cell, its motion in cells of `scale` pixels.
+/// Returns a sample at the centre of a cell, its motion in cells of `scale` pixels.
 fn galpixel(sample: &Sample, scale: f64) -> Galpixel {
     let scaled = |[x, y, depth]: [f64; 3]| [x / scale, y / scale, depth];
     engine::galpixel(&Sample {

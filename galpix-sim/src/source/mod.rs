@@ -1,6 +1,7 @@
 //! Sources of updates: built-in scenes with exact truth, and captures.
 
 pub mod capture;
+pub mod ddoc;
 pub mod fit;
 pub mod hidden;
 pub mod scene;
@@ -36,7 +37,7 @@ pub enum SourceError {
 impl Source {
     /// Opens a built-in scene by its name, or a capture by the path of its manifest or folder.
     ///
-    /// *Errors:* one sentence that says what, where and how to mend it.
+    /// *Errors:* one sentence that says what, where and how to correct it.
     pub fn open(name: &str, options: &ImportOptions) -> Result<Self, SourceError> {
         if let Some(scene) = scene::find(name) {
             return Ok(Self::Scene(scene));
@@ -48,7 +49,7 @@ impl Source {
         Ok(Self::Capture(Box::new(capture::load(Path::new(name), options)?)))
     }
 
-    /// The scene's or the capture's name.
+    /// Returns the scene's or the capture's name.
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -57,7 +58,7 @@ impl Source {
         }
     }
 
-    /// What it shows.
+    /// Returns what it shows.
     #[must_use]
     pub fn about(&self) -> &str {
         match self {
@@ -66,7 +67,7 @@ impl Source {
         }
     }
 
-    /// How many frames it is meant to be extrapolated.
+    /// Returns how many frames it is meant to be extrapolated.
     #[must_use]
     pub fn frames(&self) -> u32 {
         match self {
@@ -75,7 +76,7 @@ impl Source {
         }
     }
 
-    /// The update.
+    /// Returns the update.
     #[must_use]
     pub fn update(&self) -> Update {
         match self {
@@ -84,7 +85,7 @@ impl Source {
         }
     }
 
-    /// The true picture of a frame, where it is known.
+    /// Returns the true picture of a frame, where it is known.
     #[must_use]
     pub fn truth(&self, frame: u32) -> Option<Truth> {
         match self {
@@ -93,7 +94,7 @@ impl Source {
         }
     }
 
-    /// What was known of the cells of a capture.
+    /// Returns what was known of the cells of a capture.
     #[must_use]
     pub fn census(&self) -> Option<&Census> {
         match self {

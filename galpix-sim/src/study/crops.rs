@@ -1,4 +1,4 @@
-//! What each fill shows around the largest disocclusion, beside the truth.
+//! What each fill shows around the largest disocclusion, and the truth.
 
 use std::borrow::Cow;
 
@@ -44,7 +44,7 @@ pub struct Crop {
     pub picture: Picture,
 }
 
-/// The frame with the largest area, the first of several; `None` if nothing is disoccluded.
+/// Returns the frame with the largest area, the first of several; `None` if nothing is disoccluded.
 #[must_use]
 pub fn largest(holes: &[Holes]) -> Option<Largest> {
     let areas = holes.iter().filter_map(|holes| Some((holes, holes.largest()?)));
@@ -54,13 +54,13 @@ pub fn largest(holes: &[Holes]) -> Option<Largest> {
     Some(Largest { frame: holes.frame, cells, left, top, width, height })
 }
 
-/// The part of a picture around the area.
+/// Returns the part of a picture around the area.
 #[must_use]
 pub fn crop(name: impl Into<Cow<'static, str>>, picture: &Picture, at: &Largest) -> Crop {
     Crop { name: name.into(), picture: picture.crop(at.left, at.top, at.width, at.height) }
 }
 
-/// The truth there, and what the warp left open.
+/// Returns the truth there, and what the warp left open.
 #[must_use]
 pub fn of_truth(holes: &[Holes], at: &Largest) -> Vec<Crop> {
     let frame = holes.iter().filter(|holes| holes.frame == at.frame);
@@ -84,7 +84,7 @@ impl Crop {
         picture(&magnified, &format!("{source}: {}, magnified", self.name), &self.name)
     }
 
-    /// The part with each pixel as a square of `times` pixels.
+    /// Returns the part with each pixel as a square of `times` pixels.
     #[must_use]
     pub fn magnified(&self, times: usize) -> Picture {
         film::magnified(&self.picture, times)

@@ -1,5 +1,6 @@
 //! The cells that are judged: those of the display that no galpixel of the update reached, by the warp alone, whatever
-//! is put into them. Those connected with the border are apart: what enters the picture was never seen beside anything.
+//! is put into them. Those connected with the border are counted separately: what enters the picture was never next to
+//! anything known.
 
 use galpix_core::FillMode;
 
@@ -24,7 +25,7 @@ pub struct Holes {
     pub warped: Picture,
 }
 
-/// How many cells are set.
+/// Returns how many cells are set.
 #[must_use]
 pub fn count(cells: &[bool]) -> u64 {
     cells.iter().filter(|&&set| set).count() as u64
@@ -43,7 +44,7 @@ impl Holes {
         Self { frame, truth: truth.picture.clone(), all, disoccluded, warped }
     }
 
-    /// The largest connected disoccluded area: its cells and the window around them.
+    /// Returns the largest connected disoccluded area: its cells and the window around them.
     #[must_use]
     pub fn largest(&self) -> Option<(usize, Window)> {
         let (width, height) = (self.truth.width, self.truth.height);

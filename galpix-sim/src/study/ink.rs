@@ -7,12 +7,12 @@ use crate::output::html::style::Ink;
 
 /// Returns the colour of a fill.
 pub(crate) const fn of(fill: Fill) -> Ink {
-    let rung = match fill {
+    let mode = match fill {
         Fill::Inpaint(Inpaint { kind: Kind::PushPull, .. }) => return Ink::Bound,
         Fill::Inpaint(Inpaint { kind: Kind::Metamer, .. }) => return Ink::Lost,
-        Fill::Rung(rung) => rung,
+        Fill::Mode(mode) => mode,
     };
-    match rung {
+    match mode {
         FillMode::None => Ink::Collided,
         FillMode::Hold => Ink::Hold,
         FillMode::Debris => Ink::Holes,

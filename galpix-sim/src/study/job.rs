@@ -1,4 +1,4 @@
-//! What is asked of a source, and what follows from it: resolved once, before anything is run.
+//! A request for a source and what follows from it, resolved once, before anything is run.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Record, Ro
 
 use crate::engine::fill::Fill;
 use crate::engine::{Engine, EngineError, ScanOut};
-use crate::source::hidden::{self, Carried, Kind, Way};
+use crate::source::hidden::{self, Carried, Kind, Strategy};
 use crate::source::{Source, SourceError};
 use crate::update::{DepthKind, Update};
 
@@ -23,19 +23,19 @@ pub enum ExperimentError {
     /// The budget cannot exist.
     #[error("this budget cannot exist: {0}")]
     Budget(#[from] BudgetError),
-    /// The source knows nothing behind its first layer, or not in this way.
-    #[error("{source_name} has no hidden samples of the kind `{way}`: {mend}")]
+    /// The source knows nothing behind its first layer, or not in this strategy.
+    #[error("{source_name} has no hidden samples of the kind `{strategy}`: {hint}")]
     NothingHidden {
         /// Scene or capture.
         source_name: String,
         /// What was wanted.
-        way: String,
+        strategy: String,
         /// What to do about it.
-        mend: &'static str,
+        hint: &'static str,
     },
 }
 
-/// What is asked for.
+/// A request.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
     /// Frames to extrapolate; the source's own number if absent.
@@ -58,8 +58,8 @@ pub struct Request {
     pub scan_out: ScanOut,
     /// Whether SSIM and FLIP are computed too.
     pub perceptual: bool,
-    /// What is handed over beside the first layer.
-    pub way: Way,
+    /// Which hidden samples are handed over.
+    pub strategy: Strategy,
 }
 
 impl Default for Request {
@@ -75,13 +75,13 @@ impl Default for Request {
             edge_threshold: None,
             scan_out: ScanOut::default(),
             perceptual: true,
-            way: Way::ONE,
+            strategy: Strategy::ONE,
         }
     }
 }
 
 impl Request {
-    /// Returns the frames to extrapolate: those asked for, else the source's own number.
+    /// Returns the frames to extrapolate: the requested number, else the source's own.
     #[must_use]
     pub fn frames(&self, source: &Source) -> u32 {
         self.frames.unwrap_or(source.frames())
@@ -108,7 +108,7 @@ impl Request {
         };
         let edge_threshold =
             self.edge_threshold.map_or(by_kind, |part| (part * f64::from(1u32 << depth_bits.min(31))).round() as u32);
-        Settings { rounding: self.rounding, fill_mode: self.fill.rung(), edge_threshold, reach: self.reach }
+        Settings { rounding: self.rounding, fill_mode: self.fill.mode(), edge_threshold, reach: self.reach }
     }
 }
 
@@ -129,19 +129,19 @@ pub struct Job<'s> {
     pub format: Dynamic,
     /// How frames are made.
     pub settings: Settings,
-    /// What was asked for.
+    /// The request.
     pub request: Request,
 }
 
 impl<'s> Job<'s> {
-    /// Resolves what is asked of a source. Its galpixels carry what its update has.
+    /// Resolves a request for a source. Its galpixels carry what its update has.
     ///
     /// *Errors:* a budget that cannot exist.
     pub fn resolve(source: &'s Source, request: &Request) -> Result<Self, ExperimentError> {
         Self::with_layout(source, request, layout_for)
     }
 
-    /// Resolves what is asked of a source, with galpixels that carry what `layout` says of its update. Without
+    /// Resolves a request for a source, with galpixels that carry those fields of its update that `layout` has. Without
     /// acceleration its widths are those of [`Bits::derive_without_acceleration`].
     ///
     /// *Errors:* a budget that cannot exist.
@@ -168,17 +168,17 @@ impl<'s> Job<'s> {
         Self { settings, request, ..self.clone() }
     }
 
-    /// Returns the same job with positions rounded in another way.
+    /// Returns the same job with positions rounded in another strategy.
     #[must_use]
     pub fn with_rounding(&self, rounding: Rounding) -> Self {
         let settings = Settings { rounding, ..self.settings };
         Self { settings, request: Request { rounding, ..self.request }, ..self.clone() }
     }
 
-    /// Returns the same job with something else handed over beside the first layer.
+    /// Returns the same job with other hidden samples handed over.
     #[must_use]
-    pub fn with_way(&self, way: Way) -> Self {
-        Self { request: Request { way, ..self.request }, ..self.clone() }
+    pub fn with_strategy(&self, strategy: Strategy) -> Self {
+        Self { request: Request { strategy, ..self.request }, ..self.clone() }
     }
 
     /// Returns the same job without SSIM and FLIP.
@@ -198,8 +198,8 @@ impl<'s> Job<'s> {
     ///
     /// *Errors:* a source that has nothing of this kind.
     pub fn carried(&self) -> Result<Carried, ExperimentError> {
-        check_way(self.source, self.request.way)?;
-        Ok(hidden::carry(self.source, &self.update, self.request.way, self.format, self.frames)?)
+        check_strategy(self.source, self.request.strategy)?;
+        Ok(hidden::carry(self.source, &self.update, self.request.strategy, self.format, self.frames)?)
     }
 }
 
@@ -209,16 +209,16 @@ fn layout_for(update: &Update) -> Layout {
     if shaded { Layout::SHADED } else { Layout::FULL }
 }
 
-/// Checks that a source has what is wanted behind its first layer.
+/// Checks that a source has the requested hidden samples.
 ///
-/// *Errors:* it has nothing of this kind.
-pub fn check_way(source: &Source, way: Way) -> Result<(), ExperimentError> {
-    if hidden::has(source, way.kind) {
+/// *Errors:* it has none of this kind.
+pub fn check_strategy(source: &Source, strategy: Strategy) -> Result<(), ExperimentError> {
+    if hidden::has(source, strategy.kind) {
         return Ok(());
     }
-    let mend = match (source, way.kind) {
+    let hint = match (source, strategy.kind) {
         (Source::Capture(_), Kind::Second { .. }) => "add an [update.hidden] to its manifest",
         _ => "choose a built-in scene, or another kind",
     };
-    Err(ExperimentError::NothingHidden { source_name: source.name().to_owned(), way: way.name(), mend })
+    Err(ExperimentError::NothingHidden { source_name: source.name().to_owned(), strategy: strategy.name(), hint })
 }

@@ -1,13 +1,13 @@
-//! Studies: what is run over sources, and what is said of it.
+//! Studies: what is run over sources, and how it is reported.
 //!
 //! ```text
 //! source ─▶ job (resolved once) ─▶ Study::study ─▶ report ─▶ rows ─▶ columns ─▶ csv | terminal | page
 //!                                                    └─▶ Document ─▶ json
 //! ```
 //!
-//! A [`Study`] says what is particular to it; the driver of the command line opens the sources, shows progress, prints
-//! and writes. No study imports another: what several of them use stands beside them, in [`crops`], [`holes`], [`ink`],
-//! [`job`], [`run`] and [`timing`].
+//! A [`Study`] defines what is particular to it; the driver of the command line opens the sources, shows progress,
+//! prints and writes. No study imports another: what several of them use is in [`crops`], [`holes`], [`ink`], [`job`],
+//! [`run`] and [`timing`].
 
 pub mod crops;
 pub mod ddoc;
@@ -33,7 +33,7 @@ use crate::output::html::Fact;
 /// Why a study is not done.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
-    /// What was asked for cannot be used.
+    /// The request cannot be used.
     #[error("{0}")]
     Unusable(String),
     /// Anything else.
@@ -42,18 +42,18 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// Says that what was asked for cannot be used.
+    /// Creates the error of a request that cannot be used.
     pub fn unusable(reason: impl ToString) -> Self {
         Self::Unusable(reason.to_string())
     }
 
-    /// Says what failed.
+    /// Creates the error of anything else.
     pub fn failed(reason: impl ToString) -> Self {
         Self::Failed(reason.to_string())
     }
 }
 
-/// How a study gets on.
+/// The progress of a study.
 #[derive(Clone, Copy, Debug)]
 pub enum Work<'n> {
     /// So many pieces of work more are known of.
@@ -68,11 +68,11 @@ pub enum Work<'n> {
 pub struct Stage<'s> {
     /// The folder that files go to, if any are written.
     pub out: Option<&'s Path>,
-    /// Is told how the study gets on.
-    pub tell: &'s (dyn Fn(Work<'_>) + Sync),
+    /// Is called with the progress of the study.
+    pub notify: &'s (dyn Fn(Work<'_>) + Sync),
 }
 
-/// Why nothing is said of a source.
+/// Why there is no report on a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Nothing {
     /// Nothing is disoccluded in it.
@@ -87,15 +87,15 @@ impl Nothing {
     pub const fn text(self) -> &'static str {
         match self {
             Self::Disoccluded => "nothing is disoccluded",
-            Self::Hidden => "nothing is known behind its first layer; a capture says it in [update.hidden]",
+            Self::Hidden => "nothing is known behind its first layer; a capture has it in [update.hidden]",
         }
     }
 }
 
-/// Sources of which nothing is said, by name, and why.
+/// Sources without a report, by name, and why.
 pub type Silent = Vec<(Nothing, String)>;
 
-/// Returns the names of the sources of which nothing is said for this reason.
+/// Returns the names of the sources without a report for this reason.
 #[must_use]
 pub fn silent(all: &[(Nothing, String)], reason: Nothing) -> Vec<String> {
     all.iter().filter(|(why, _)| *why == reason).map(|(_, name)| name.clone()).collect()
@@ -118,18 +118,18 @@ pub struct Document<E, R> {
     pub command: String,
     /// Where it ran.
     pub machine: String,
-    /// How long it took; none where that is not said.
+    /// How long it took, if that is reported.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub seconds: Option<f64>,
-    /// What is said beside the sources.
+    /// What is reported besides the sources.
     #[serde(flatten)]
     pub extra: E,
-    /// One a source, without those of which nothing is said.
+    /// One per source, without those that have no report.
     pub sources: Vec<R>,
 }
 
 impl<E, R> Document<E, R> {
-    /// Returns what a page says of how it was made.
+    /// Returns how a page was made.
     #[must_use]
     pub fn facts(&self) -> Vec<Fact> {
         let mut facts = vec![
@@ -142,13 +142,13 @@ impl<E, R> Document<E, R> {
     }
 }
 
-/// Nothing beside the sources.
+/// Nothing besides the sources.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct NoExtra {}
 
-/// Where the path of a study's last file, which is its page, is said.
+/// Where the path of a study's last file, its page, is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum PathPrinted {
     /// Nowhere.
     Nowhere,
     /// On standard output, unless JSON is printed there.
@@ -160,28 +160,28 @@ pub enum Told {
 /// A file of a study: its name and its bytes.
 pub type File = (String, Vec<u8>);
 
-/// A study: what it does with each source, and how what it found is said.
+/// A study: what it does with each source, and how its results are reported.
 pub trait Study {
     /// A source as it was opened.
     type Source;
-    /// What follows from a source and what is asked of it.
+    /// A request, resolved for a source.
     type Job<'s>;
     /// What is found in a source.
     type Report: Serialize;
-    /// What is said beside the sources.
+    /// What is reported besides the sources.
     type Extra: Serialize;
 
-    /// What the columns of its tables are; said at the end.
+    /// The legend of its tables, printed at the end.
     const LEGEND: Option<&'static str> = None;
-    /// Whether it is said how long the study took.
+    /// Whether the duration of the study is reported.
     const SECONDS: bool = true;
-    /// Where the path of its last file is said.
-    const PATH: Told = Told::Printed;
+    /// Where the path of its last file is printed.
+    const PATH: PathPrinted = PathPrinted::Printed;
 
     /// Returns the source's name.
     fn name<'a>(&self, source: &'a Self::Source) -> &'a str;
 
-    /// Resolves what is asked of a source, before anything is run.
+    /// Resolves the request for a source, before anything is run.
     ///
     /// *Errors:* what cannot be run.
     fn resolve<'s>(&self, source: &'s Self::Source) -> Result<Self::Job<'s>, StudyError>;
@@ -194,20 +194,20 @@ pub trait Study {
     /// *Errors:* a source that cannot be run, files that cannot be written.
     fn study(&self, job: &Self::Job<'_>, stage: &Stage<'_>) -> Result<Found<Self::Report>, StudyError>;
 
-    /// Returns what the terminal says before the first source.
+    /// Returns what the terminal shows before the first source.
     fn head(&self) -> Option<String> {
         None
     }
 
-    /// Returns what the terminal says of a source.
+    /// Returns what the terminal shows for a source.
     fn text(&self, report: &Self::Report) -> String;
 
-    /// Returns what is said beside the sources; `silent` are those of which nothing is said.
+    /// Returns what is reported besides the sources; `silent` are those without a report.
     fn extra(&self, silent: &Silent) -> Self::Extra;
 
     /// Returns the document as JSON.
     ///
-    /// *Errors:* none that are known; what the serialiser says.
+    /// *Errors:* those of the serialiser; none are known.
     fn json(&self, document: &Document<Self::Extra, Self::Report>) -> serde_json::Result<String> {
         serde_json::to_string_pretty(document)
     }

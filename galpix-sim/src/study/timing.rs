@@ -2,7 +2,7 @@
 //!
 //! A round takes each contender once: the update is loaded (not timed), memory is copied, the frames are stepped and
 //! timed one by one, memory is copied again. The time of a round is the median over its frames, its ratio that by the
-//! mean of the two copies; what is told is the median over the rounds, the first of which warms up. Times are this
+//! mean of the two copies; the result is the median over the rounds, the first of which warms up. Times are this
 //! thread's processor time.
 
 use std::hint::black_box;
@@ -19,7 +19,7 @@ use crate::update::Update;
 
 /// What can be timed.
 pub trait Contender {
-    /// Bytes of one of its maps.
+    /// Returns the bytes of one of its maps.
     fn bytes(&self) -> usize;
     /// Loads the update.
     fn restart(&mut self, update: &Update);
@@ -41,7 +41,7 @@ pub trait Contender {
 pub struct Time {
     /// Microseconds a frame, the median.
     pub frame_us: f64,
-    /// Nanoseconds a cell of the map.
+    /// Nanoseconds per cell of the map.
     pub ns_per_cell: f64,
     /// Ratio to a copy of as many bytes as the map has, the median.
     pub x_copy: f64,
@@ -66,12 +66,12 @@ impl<F: Format> Engine<F> {
     /// For updates of the size of this one, with what follows each frame; `None` where such a map cannot be.
     #[must_use]
     pub fn new(update: &Update, format: F, settings: Settings, inpaint: Option<Inpaint>) -> Option<Self> {
-        let margin = margin(update.wings);
+        let margin = margin(update.margin);
         let size = (update.display_width() as u32, update.display_height() as u32);
         let mut starts = vec![0; Grid::rows(size.1, margin)];
         let grid = Grid::new(size.0, size.1, margin, &mut starts).ok()?;
         let words = Galpixmap::words(&grid, format);
-        // Fill modes that use no edges need no scratch memory, and a product would not lend any.
+        // Fill modes that use no edges need no scratch memory, and a product would not provide any.
         let uses_edges = settings.fill_mode.uses_edges();
         let scratch = if uses_edges { (grid.cells() as usize, stages::words(&grid)) } else { (0, 0) };
         let inpainter = inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
@@ -134,7 +134,8 @@ pub struct Effort {
     pub frames: u32,
 }
 
-/// Times the contenders that `make` makes; they live for a turn only, so that their memory need not stand side by side.
+/// Times the contenders that `make` makes; they live for a turn only, so that their memory need not exist at the same
+/// time.
 pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl FnMut()) -> Vec<Option<Time>> {
     let mut rounds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); make.len()];
     let mut copy = Copy::default();
@@ -176,7 +177,7 @@ impl Copy {
     const LINE: usize = 64;
     const APART: usize = 31 * Self::LINE;
 
-    /// Seconds of a copy: the mean of some, after one that does not count.
+    /// Returns the seconds of a copy: the mean of some, after one that does not count.
     fn time(&mut self, bytes: usize) -> f64 {
         let room = bytes + Self::APART + Self::LINE;
         if self.from.len() < room {

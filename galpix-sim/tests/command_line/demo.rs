@@ -34,7 +34,7 @@ fn assert_demo(folder: &Path, stdout: &str, out: &str) {
     assert_eq!(entries(&folder.join(out)), BTreeSet::from(["report.html".to_owned()]));
 }
 
-/// Names and figures of a table; the last two columns are times.
+/// Returns the names and figures of a table; the last two columns are times.
 fn without_times(stdout: &str) -> Vec<&str> {
     fn shorter(line: &str) -> &str {
         line.trim_end().rsplit_once(' ').map_or("", |(rest, _)| rest.trim_end())

@@ -43,7 +43,7 @@ fn page_values_and_document_say_the_same() {
     assert!(document["command"].as_str().unwrap().starts_with("galpix error crossing --quick"));
     assert_eq!(document["version"], env!("CARGO_PKG_VERSION"));
 
-    // Comma-separated values: a line a point, and sample-and-hold.
+    // Comma-separated values: a line per point, and sample-and-hold.
     let mut lines = csv.lines();
     let columns: Vec<&str> = lines.next().unwrap().split(',').collect();
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
@@ -143,20 +143,20 @@ fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
 }
 
 #[test]
-fn inpainting_is_a_rung_that_can_be_asked_for() {
+fn inpainting_is_a_fill_that_can_be_asked_for() {
     let folder = folder();
     let arguments = ["error", "crossing", "--quick", "--frames", "2", "--lanes=full", "--rungs=hold,metamer", "--json"];
     let document = json(folder.path(), &arguments);
     let points = document["sources"][0]["points"].as_array().unwrap();
-    let of = |rung: &str| points.iter().find(|point| point["rung"] == rung).expect("a point");
-    let flip = |rung: &str| of(rung)["summary"]["flip"].as_f64().unwrap();
+    let of = |fill: &str| points.iter().find(|point| point["rung"] == fill).expect("a point");
+    let flip = |fill: &str| of(fill)["summary"]["flip"].as_f64().unwrap();
     assert_ne!(flip("metamer"), flip("hold"));
     assert!(of("metamer")["compile_time"]["frame_us"].as_f64().unwrap() > 0.0);
 }
 
-/// Lanes that no format is compiled for have the time of the form chosen at run time, and no other.
+/// Fields that no format is compiled for have the time of the form chosen at run time, and no other.
 #[test]
-fn lanes_without_a_stand_in_have_one_time() {
+fn fields_without_a_stand_in_have_one_time() {
     let folder = folder();
     let arguments =
         ["error", "crossing", "--quick", "--frames=2", "--lanes=velocity,acceleration", "--rungs=hold", "--json"];

@@ -1,14 +1,9 @@
 //! `galpix fills`.
 
-use std::path::Path;
-
+use galpix_sim::picture::Picture;
 use serde_json::Value;
 
-use crate::{done, entries, folder, json, read, refused};
-
-fn picture(path: &Path) -> image::RgbImage {
-    image::open(path).unwrap_or_else(|error| panic!("{}: {error}", path.display())).to_rgb8()
-}
+use crate::{done, entries, folder, json, picture, read, refused};
 
 #[test]
 fn page_values_and_pictures_say_the_same() {
@@ -36,25 +31,25 @@ fn page_values_and_pictures_say_the_same() {
     assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
     assert_eq!(page.matches("<tr><td").count(), fills.len());
 
-    // The pictures: those that the index lists, the mask as large as the document says, and what no mask covers is the
+    // The pictures: those that the index lists, the mask as large as in the document, and what no mask covers is the
     // same in all.
     let mut listed = 0;
     for (frame, cells) in
         index["sources"][0]["frames"].as_array().unwrap().iter().zip(source["cells"].as_array().unwrap())
     {
         let at = |name: &str| picture(&out.join(frame[name].as_str().unwrap()));
-        let white = |mask: &image::RgbImage| mask.pixels().filter(|pixel| pixel.0 == [255; 3]).count() as u64;
+        let white = |mask: &Picture| mask.pixels.iter().filter(|&&pixel| pixel == [255; 3]).count() as u64;
         let (truth, mask, all, warped) = (at("truth"), at("mask"), at("mask_all"), at("warped"));
-        assert_eq!(truth.dimensions(), (192, 144));
+        assert_eq!((truth.width, truth.height), (192, 144));
         for of in [frame, cells] {
             assert_eq!(Some(white(&mask)), of["disoccluded"].as_u64());
             assert_eq!(Some(white(&all)), of["missing"].as_u64());
         }
-        assert!(all.enumerate_pixels().all(|(x, y, pixel)| pixel.0 == [0; 3] || warped.get_pixel(x, y).0 == [0; 3]));
+        assert!(all.pixels.iter().zip(&warped.pixels).all(|(&all, &warped)| all == [0; 3] || warped == [0; 3]));
         for fill in frame["fills"].as_array().unwrap() {
             let shown = picture(&out.join(fill["file"].as_str().unwrap()));
-            let outside = all.enumerate_pixels().filter(|(_, _, pixel)| pixel.0 == [0; 3]);
-            let differing = outside.filter(|(x, y, _)| shown.get_pixel(*x, *y) != warped.get_pixel(*x, *y)).count();
+            let pairs = all.pixels.iter().zip(shown.pixels.iter().zip(&warped.pixels));
+            let differing = pairs.filter(|&(&all, (shown, warped))| all == [0; 3] && shown != warped).count();
             // A bullet fill is a galpixel: it may win a cell that one of the update would have had.
             assert!(differing < 60, "{}: {differing} cells differ outside of the mask", fill["name"]);
             listed += 1;
@@ -72,10 +67,10 @@ fn one_document_and_only_the_fills_that_were_asked_for() {
     assert!(entries(folder.path()).is_empty(), "without --out nothing is written");
     assert_eq!(document["fovea"], 60);
     let fills = document["sources"][0]["fills"].as_array().unwrap();
-    let said = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
-    assert_eq!(said("name"), "\"extend\" \"push-pull-classic\" \"push-pull\"");
-    assert_eq!(said("gamma"), "null \"0\" \"1\"");
-    assert_eq!(said("depth_aware"), "null false true");
+    let values = |key: &str| fills.iter().map(|fill| fill[key].to_string()).collect::<Vec<_>>().join(" ");
+    assert_eq!(values("name"), "\"extend\" \"push-pull-classic\" \"push-pull\"");
+    assert_eq!(values("gamma"), "null \"0\" \"1\"");
+    assert_eq!(values("depth_aware"), "null false true");
     for fill in fills {
         assert!(fill["time"]["x_copy"].as_f64().unwrap() > 0.0);
         assert_eq!(fill["frames"].as_array().unwrap().len(), 3);

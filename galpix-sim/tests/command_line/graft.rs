@@ -4,9 +4,9 @@ use serde_json::Value;
 
 use crate::{folder, json, read, refused};
 
-fn way<'v>(report: &'v Value, name: &str) -> &'v Value {
-    let ways = report["ways"].as_array().expect("ways");
-    ways.iter().find(|way| way["way"] == name).unwrap_or_else(|| panic!("no way {name}"))
+fn strategy<'v>(report: &'v Value, name: &str) -> &'v Value {
+    let strategies = report["ways"].as_array().expect("ways");
+    strategies.iter().find(|strategy| strategy["way"] == name).unwrap_or_else(|| panic!("no strategy {name}"))
 }
 
 fn number(value: &Value) -> f64 {
@@ -21,15 +21,16 @@ fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
     let report = json(folder.path(), &["graft", "hud", "--frames", "40", "--json", "--out", "out"]);
     assert_eq!(report["scene"], "hud");
     assert_eq!(report["objects"].as_array().unwrap().len(), 4);
-    let (view, layers, grafts) = (way(&report, "whole-view"), way(&report, "whole-layers"), way(&report, "grafts"));
+    let (view, layers, grafts) =
+        (strategy(&report, "whole-view"), strategy(&report, "whole-layers"), strategy(&report, "grafts"));
     for other in [view, layers] {
         assert!(number(&grafts["psnr_db"]) > number(&other["psnr_db"]) + 3.0, "{other}");
         assert!(number(&grafts["flip"]) < 0.8 * number(&other["flip"]), "{other}");
         assert!(number(&grafts["objects_px"]) < 0.1 * number(&other["objects_px"]), "{other}");
     }
     // By the period of an update: what of it lies within the run depends on where the run ends.
-    let rate = |way: &Value| {
-        let [objects, background] = ["objects_every", "background_every"].map(|key| number(&way[key]));
+    let rate = |strategy: &Value| {
+        let [objects, background] = ["objects_every", "background_every"].map(|key| number(&strategy[key]));
         let cells: Vec<f64> = report["objects"].as_array().unwrap().iter().map(number).collect();
         cells[0] / background + cells[1..].iter().sum::<f64>() / objects
     };
@@ -43,7 +44,7 @@ fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
     assert!((sum - sent).abs() < 0.5, "every galpixel that was sent is accounted for: {sum} of {sent}");
     assert_eq!(grafts["refused"]["total"], 0);
     assert_eq!(grafted["renderings"], grafts["renderings"]);
-    let small = way(&report, "grafts-small-queue");
+    let small = strategy(&report, "grafts-small-queue");
     let refused = number(&small["refused"]["total"]);
     assert!(refused > 0.0 && small["refused"]["cells"] == small["refused"]["total"], "{small}");
     assert_eq!(number(&small["grafted"]["renderings"]), number(&small["renderings"]) - refused);

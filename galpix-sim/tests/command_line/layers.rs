@@ -15,26 +15,26 @@ fn page_and_values_say_the_same() {
     let document: Value = serde_json::from_str(&read("layers.json")).unwrap();
     let (csv, page) = (read("layers.csv"), read("layers.html"));
     assert_eq!(document["nothing_disoccluded"].as_array().unwrap().as_slice(), ["still"]);
-    let ways = document["sources"][0]["ways"].as_array().unwrap();
-    assert_eq!(ways[0]["name"], "one layer");
+    let strategies = document["sources"][0]["ways"].as_array().unwrap();
+    assert_eq!(strategies[0]["name"], "one layer");
 
-    // A line for each way and frame, one for all its frames; missing cells add up.
+    // A line for each strategy and frame, one for all its frames; missing cells add up.
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
-    assert_eq!(csv.lines().count(), 1 + ways.len() * 3);
-    assert!(ways.len() > 8 && columns.len() == 15);
-    for way in ways {
-        let frames = way["frames"].as_array().unwrap();
+    assert_eq!(csv.lines().count(), 1 + strategies.len() * 3);
+    assert!(strategies.len() > 8 && columns.len() == 15);
+    for strategy in strategies {
+        let frames = strategy["frames"].as_array().unwrap();
         let sum: u64 = frames.iter().map(|frame| frame["missing"].as_u64().unwrap()).sum();
-        assert_eq!(Some(sum), way["missing"].as_u64());
-        assert!(text(&output.stdout).contains(way["name"].as_str().unwrap()));
+        assert_eq!(Some(sum), strategy["missing"].as_u64());
+        assert!(text(&output.stdout).contains(strategy["name"].as_str().unwrap()));
     }
 
-    // The page needs nothing else; truth, warped picture, each way, and the map.
+    // The page needs nothing else; truth, warped picture, each strategy, and the map.
     assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
     assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
-    assert_eq!(page.matches("<img ").count(), ways.len() + 3);
+    assert_eq!(page.matches("<img ").count(), strategies.len() + 3);
     assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
-    assert_eq!(page.matches("<tr><td").count(), ways.len());
+    assert_eq!(page.matches("<tr><td").count(), strategies.len());
 }
 
 #[test]
@@ -49,7 +49,7 @@ fn json_is_one_document_and_nothing_is_written() {
     );
 }
 
-/// Without `--hidden` a run says what it said before there were layers.
+/// Without `--hidden` a run reports what it did before there were layers.
 #[test]
 fn a_run_hands_over_what_is_hidden() {
     let folder = folder();
@@ -74,7 +74,7 @@ fn a_run_hands_over_what_is_hidden() {
     assert!(printed.contains("samples behind the first layer"), "{printed}");
 }
 
-/// A report with the times of another one.
+/// Returns a report with the times of another one.
 fn ignoring_time(mut report: Value, like: &Value) -> Value {
     report["ns_per_galpixel"] = like["ns_per_galpixel"].clone();
     for (frame, like) in report["frames"].as_array_mut().unwrap().iter_mut().zip(like["frames"].as_array().unwrap()) {

@@ -19,6 +19,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use galpix_sim::picture::Picture;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -31,7 +32,7 @@ fn galpix(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
-/// A folder of its own for a test, and what a call in it gave.
+/// Returns a folder of its own for a test, and what a call in it gave.
 fn folder() -> TempDir {
     tempfile::tempdir().expect("a folder for temporary files")
 }
@@ -44,20 +45,26 @@ fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).expect("UTF-8")
 }
 
-/// Standard output of a call that succeeds.
+/// Returns the picture in a PNG.
+fn picture(path: &Path) -> Picture {
+    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    Picture::from_png(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Returns standard output of a call that succeeds.
 fn done(folder: &Path, arguments: &[&str]) -> String {
     let output = output(folder, arguments);
     assert_eq!(output.status.code(), Some(0), "{arguments:?}: {}", text(&output.stderr));
     text(&output.stdout).to_owned()
 }
 
-/// The one document on standard output of a call that succeeds.
+/// Returns the one document on standard output of a call that succeeds.
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     serde_json::from_str(&done(folder, arguments)).expect("one JSON document and nothing else")
 }
 
-/// The sentence of a call that is refused: exit code 2, one line on standard error that holds each of `words`, nothing
-/// on standard output.
+/// Returns the sentence of a call that is refused: exit code 2, one line on standard error that holds each of `words`,
+/// nothing on standard output.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) -> String {
     let output = output(folder, arguments);
     let sentence = text(&output.stderr);
@@ -77,12 +84,12 @@ fn entries(folder: &Path) -> BTreeSet<String> {
     entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect()
 }
 
-/// A file that was written.
+/// Returns a file that was written.
 fn read(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// The project's own capture.
+/// Returns the project's own capture.
 fn marbles() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures/marbles")
 }

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::{done, entries, folder, json, marbles, output, refused, text};
+use crate::{done, entries, folder, json, marbles, output, picture, refused, text};
 
-/// A copy of the marbles whose manifest has `from` replaced by `to`.
+/// Returns a copy of the marbles whose manifest has `from` replaced by `to`.
 fn altered(folder: &Path, from: &str, to: &str) -> PathBuf {
     let copy = folder.join("capture");
     std::fs::create_dir_all(copy.join("frames")).unwrap();
@@ -21,7 +21,7 @@ fn altered(folder: &Path, from: &str, to: &str) -> PathBuf {
     copy
 }
 
-/// Every number of a document is finite: infinities and NaN would have become null.
+/// Returns whether a value is a finite number: infinities and NaN would have become null.
 fn is_number(value: &Value) -> bool {
     value.as_f64().is_some_and(f64::is_finite)
 }
@@ -56,12 +56,12 @@ fn assert_report(report: &Value, frames: usize) {
     }
 }
 
-fn assert_frames(folder: &Path, frames: u32, size: (u32, u32)) {
+fn assert_frames(folder: &Path, frames: u32, size: (usize, usize)) {
     let expected: BTreeSet<String> = (0..=frames).map(|frame| format!("{frame:04}.png")).collect();
     assert_eq!(entries(folder), expected);
     for name in expected {
-        let picture = image::open(folder.join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_eq!((picture.width(), picture.height()), size, "{name}");
+        let picture = picture(&folder.join(&name));
+        assert_eq!((picture.width, picture.height), size, "{name}");
     }
 }
 
@@ -92,11 +92,11 @@ fn a_capture_has_a_truth_where_its_manifest_names_one() {
 }
 
 #[test]
-fn every_rung_and_rounding_is_known_by_name() {
+fn every_fill_mode_and_rounding_is_known_by_name() {
     let folder = folder();
-    for rung in ["none", "hold", "debris", "bullet", "galdebris", "extend", "push-pull", "metamer"] {
-        let report = json(folder.path(), &["run", "crossing", "--frames", "2", "--fill", rung, "--json"]);
-        assert_eq!(report["fill"].as_str(), Some(rung));
+    for fill in ["none", "hold", "debris", "bullet", "galdebris", "extend", "push-pull", "metamer"] {
+        let report = json(folder.path(), &["run", "crossing", "--frames", "2", "--fill", fill, "--json"]);
+        assert_eq!(report["fill"].as_str(), Some(fill));
     }
     for gamma in ["0", "1/2", "1"] {
         done(folder.path(), &["run", "crossing", "--frames", "2", "--fill", "push-pull", "--gamma", gamma]);

@@ -49,9 +49,9 @@ fn the_whole_suite_as_json_holds_every_case_and_every_rounding() {
             assert_eq!(one["findings"], Value::Array(Vec::new()));
             let (paths, pictures) = (one["paths"].as_array().unwrap(), one["pictures"].as_array().unwrap());
             assert!(!paths.is_empty() || !pictures.is_empty());
-            let told: Vec<&Value> = paths.iter().filter(|path| path.get("series").is_some()).collect();
-            assert_eq!(told.len(), usize::from(!paths.is_empty()), "one path is told frame by frame");
-            for row in told.iter().flat_map(|path| path["series"].as_array().unwrap()) {
+            let detailed: Vec<&Value> = paths.iter().filter(|path| path.get("series").is_some()).collect();
+            assert_eq!(detailed.len(), usize::from(!paths.is_empty()), "one path is reported frame by frame");
+            for row in detailed.iter().flat_map(|path| path["series"].as_array().unwrap()) {
                 let px = |name: &str| row[name].as_f64().unwrap();
                 let shares = ["taylor_px", "quantisation_px", "drift_px", "snapping_px", "saturation_px"].map(px);
                 let whole = px("true_px") - px("shown_px");

@@ -1,4 +1,4 @@
-//! Outputs that nobody reads, or that take nothing.
+//! Outputs that are not read, or that take nothing.
 
 use std::process::Stdio;
 
@@ -22,7 +22,7 @@ fn a_reader_that_goes_away_is_no_failure() {
         assert!(!text(&output.stderr).contains("panicked"), "{arguments:?}: {}", text(&output.stderr));
         assert_eq!(output.status.code(), Some(0), "{arguments:?}");
     }
-    // The same for the other output: the exit code is all that is left to say.
+    // The same for the other output: only the exit code is left.
     for (arguments, code) in
         [(["run", "still", "--frames", "2"].as_slice(), 0), (&["run", "nowhere"], 2), (&["walk"], 2)]
     {

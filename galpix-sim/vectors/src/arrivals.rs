@@ -8,7 +8,7 @@ use galpix_core::{Class, Delay, Format, Galpixmap, Rounding, Tally, graft};
 
 use crate::field::{Words, set, signed, unsigned};
 
-/// A galpixel on its way: the only thing that crosses from propagation to resolution.
+/// A galpixel after its step: all that propagation hands to resolution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arrival {
     /// The cell that it wants; `None` if it left the map over its border.
@@ -44,7 +44,7 @@ pub fn arrivals<F: Format>(front: &Galpixmap<'_, F>, rounding: Rounding, frame: 
 /// Settles arrivals into a map, whatever order they come in. Both `back` and `winners` are cleared first.
 ///
 /// `winners` has a word for each cell: the source of the galpixel that got the cell, [`NO_WINNER`] where none did.
-pub fn settle<F: Format>(
+pub fn resolve<F: Format>(
     arrivals: impl IntoIterator<Item = Arrival>,
     back: &mut Galpixmap<'_, F>,
     winners: &mut [u32],

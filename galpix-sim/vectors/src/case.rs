@@ -1,4 +1,4 @@
-//! What a case says, as it is written to JSON.
+//! The content of a case, as written to JSON.
 
 use galpix_core::record::{Component, Field};
 use galpix_core::{Bits, Layout, Record, Tally};
@@ -61,7 +61,7 @@ pub struct Case {
 pub enum Content {
     /// The step kernel of one component.
     Step(Step),
-    /// Arrivals settled into an empty map.
+    /// Arrivals resolved into an empty map.
     Resolve(Resolve),
     /// The edge map.
     Edge(Edge),
@@ -82,7 +82,7 @@ pub enum Content {
 }
 
 impl Content {
-    /// The kind's name.
+    /// Returns the kind's name.
     #[must_use]
     pub const fn kind(&self) -> &'static str {
         match self {
@@ -118,8 +118,9 @@ pub struct Step {
 pub struct Making {
     /// The rounding's name.
     pub rounding: String,
-    /// The rung's name.
-    pub rung: String,
+    /// The fill mode.
+    #[serde(rename = "rung")]
+    pub fill_mode: String,
     /// Rounds of bullet filling.
     pub reach: u32,
     /// Of the edge map, in units of the depth's last bit.
@@ -133,23 +134,23 @@ pub struct Making {
 pub struct Setting {
     /// Widths.
     pub budget: Budget,
-    /// Lanes.
-    pub layout: LayoutLanes,
+    /// Fields.
+    pub layout: LayoutFields,
     /// Where the fields are.
     pub record: RecordPlaces,
     /// The size.
     pub grid: GridSize,
 }
 
-/// Arrivals and the map that they settle into.
+/// Arrivals and the map that they resolve into.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Resolve {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// In no particular order.
     pub arrivals: Vec<ArrivalWords>,
-    /// The settled map.
+    /// The resolved map.
     pub map: Vec<u32>,
     /// Who won each cell.
     pub winners: Vec<u32>,
@@ -160,7 +161,7 @@ pub struct Resolve {
 /// A map and its edges.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Edge {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// In units of the depth's last bit.
@@ -176,11 +177,12 @@ pub struct Edge {
 /// A resolved map and what its holes become.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Fill {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
-    /// The rung's name.
-    pub rung: String,
+    /// The fill mode.
+    #[serde(rename = "rung")]
+    pub fill_mode: String,
     /// Rounds of bullet filling.
     pub reach: u32,
     /// The edge map of `front`.
@@ -202,7 +204,7 @@ pub struct Fill {
 /// A map and some frames after it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Frames {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// How they are made.
@@ -225,10 +227,10 @@ pub struct FrameAfter {
     pub map: Vec<u32>,
 }
 
-/// A map, the frame of rung extend after it, and what that becomes by push-pull.
+/// A map, the frame of fill mode extend after it, and what that becomes by push-pull.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Inpaint {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// The rounding's name.
@@ -290,9 +292,9 @@ pub struct Budget {
     luminosity_frac: u32,
 }
 
-/// Lanes of a layout.
+/// Fields of a layout.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct LayoutLanes {
+pub struct LayoutFields {
     depth_bits: u32,
     velocity: bool,
     acceleration: bool,
@@ -319,7 +321,7 @@ pub struct FieldPlace {
     spill: u8,
 }
 
-/// Display and wings.
+/// Display and overscan margin.
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct GridSize {
     /// Columns of the display.
@@ -390,7 +392,7 @@ impl Setting {
                 luminosity_int: bits.luminosity_int,
                 luminosity_frac: bits.luminosity_frac,
             },
-            layout: LayoutLanes {
+            layout: LayoutFields {
                 depth_bits,
                 velocity,
                 acceleration,
@@ -405,7 +407,7 @@ impl Setting {
     }
 }
 
-/// All fields of a record by their names, in canonical order.
+/// Returns all fields of a record by their names, in canonical order.
 pub fn fields(record: &Record) -> [(&'static str, Field); 14] {
     [
         ("class", record.class()),
@@ -425,7 +427,7 @@ pub fn fields(record: &Record) -> [(&'static str, Field); 14] {
     ]
 }
 
-/// The JSON schema of manifest and cases, derived from the types that are written.
+/// Returns the JSON schema of manifest and cases, derived from the types that are written.
 #[must_use]
 pub fn schema() -> serde_json::Value {
     #[derive(JsonSchema)]

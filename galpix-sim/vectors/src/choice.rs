@@ -16,8 +16,8 @@ const FRAMES: u32 = 5;
 /// Steps that are drawn for a wide component.
 const STEPS: u32 = 600;
 
-pub const fn grid(width: u32, height: u32, wings: [u32; 4]) -> GridSize {
-    let [left, right, top, bottom] = wings;
+pub const fn grid(width: u32, height: u32, margin: [u32; 4]) -> GridSize {
+    let [left, right, top, bottom] = margin;
     GridSize { width, height, left, right, top, bottom }
 }
 
@@ -52,7 +52,7 @@ fn uneven() -> Result<Bits, BudgetError> {
         .with_z(component(2, [4, 9], [3, 9]).checked()?, 6))
 }
 
-/// A position without a fraction along a row, and one exactly as fine as its step along a column.
+/// Returns a position without a fraction along a row, and one exactly as fine as its step along a column.
 fn coarse() -> Result<Bits, BudgetError> {
     let bits = Bits::derive(Demand { extent: 64, recog: 8, prop: 8 })?;
     Ok(bits.with_xy(component(0, [5, 3], [3, 3]).checked()?, component(4, [5, 3], [3, 3]).checked()?))
@@ -80,7 +80,7 @@ fn models() -> Result<Vec<Model>, RunError> {
     ])
 }
 
-/// All cases of a seed, in order.
+/// Returns all cases of a seed, in order.
 ///
 /// *Errors:* none that the choice below runs into; they are passed on all the same.
 pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
@@ -191,7 +191,8 @@ fn threshold_cases(cases: &mut Vec<Case>, seed: u64, model: &Model) -> Result<()
     Ok(())
 }
 
-/// The step kernel: all states of a tiny component, and ends, neighbours of ends and random states of wide ones.
+/// Returns the cases of the step kernel: all states of a tiny component, and ends, neighbours of ends and random states
+/// of wide ones.
 fn steps(seed: u64) -> Result<Vec<Case>, RunError> {
     let paper = Component::derive(Demand { extent: 1024, recog: 8, prop: 16 })?;
     let components = [
@@ -243,7 +244,7 @@ fn around_thresholds(component: Component, rounding: Rounding, down: u32) -> Vec
     steps.collect()
 }
 
-/// The bits of position, velocity and acceleration.
+/// Returns the bits of position, velocity and acceleration.
 fn widths(component: Component) -> [u32; 3] {
     [component.position_frac, component.velocity_bits(), component.acceleration_bits()]
 }

@@ -1,4 +1,4 @@
-//! Cases of the disocclusion map: which there are, what they say, and the core run over their inputs.
+//! Cases of the disocclusion map: which there are, their content, and the core run over their inputs.
 
 use galpix_core::disocclusion::{Border, Reach, Tally, cover, mark, spread};
 use galpix_core::{Bits, Colour, Demand, Galpixmap, Layout, Record, stages};
@@ -13,7 +13,7 @@ use crate::run::{GridMemory, Model, RunError};
 /// A map, and which of its cells hide what may be uncovered.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Disocclusion {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// Frames until the next update.
@@ -28,7 +28,7 @@ pub struct Disocclusion {
     pub through: bool,
     /// The map.
     pub front: Vec<u32>,
-    /// Extents and bits *shut* of each cell, before they are spread.
+    /// Extents and bits *blocked* of each cell, before they are spread.
     pub marked: Vec<u32>,
     /// Extents of each cell.
     pub spread: Vec<u32>,
@@ -42,14 +42,15 @@ pub struct Disocclusion {
 #[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Uncovered {
     edges: u32,
-    endless: u32,
+    #[serde(rename = "endless")]
+    saturated: u32,
     covered: u32,
 }
 
 impl From<Tally> for Uncovered {
     fn from(tally: Tally) -> Self {
-        let Tally { edges, saturated: endless, covered } = tally;
-        Self { edges, endless, covered }
+        let Tally { edges, saturated, covered } = tally;
+        Self { edges, saturated, covered }
     }
 }
 
@@ -86,7 +87,7 @@ impl Shown {
     }
 }
 
-/// Runs of cells longer than any that an engine may take at once, lines along either side, wings, and a single cell.
+/// Runs of cells longer than any that an engine may take at once, lines along either side, margin, and a single cell.
 const SHAPES: [GridSize; 9] = [
     grid(40, 13, [0; 4]),
     grid(12, 9, [0; 4]),
@@ -117,7 +118,7 @@ const PICTURES: [Shown; 11] = [
 /// A depth as wide as it may be.
 const DEEPEST: Layout = Layout { depth_bits: 28, ..Layout::VELOCITY_GRAY8 };
 
-/// No depth, with acceleration: surfaces are told apart by their motion and their class alone.
+/// No depth, with acceleration: surfaces are distinguished by motion and class alone.
 const LEVEL: Layout = Layout { colour: Colour::RGB888, velocity: true, acceleration: true, ..Layout::STILL };
 
 /// Without acceleration, and more bits dropped than the one that a derived budget drops.
@@ -126,7 +127,7 @@ fn glide() -> Result<Bits, RunError> {
     Ok(bits.with_xy(component(2, [5, 4], [0, 0]).checked()?, component(4, [4, 5], [0, 0]).checked()?))
 }
 
-/// All cases, over the layouts of the others and three more.
+/// Returns all cases, over the layouts of the others and three more.
 pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     let derived = Bits::derive(Demand { extent: 64, recog: 8, prop: 8 })?;
     let slide = Bits::derive_without_acceleration(Demand { extent: 128, recog: 4, prop: 16 })?;
@@ -138,7 +139,7 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     let mut cases = Vec::new();
     for (place, model) in models.iter().chain(&more).enumerate() {
         for (index, shown) in PICTURES.into_iter().enumerate() {
-            // What is still has no more to say than this.
+            // For a still picture one case is enough.
             if model.name == "still" && index > 2 {
                 continue;
             }

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::case::{Case, Content};
 
-/// The SHA-256 of some bytes, in hexadecimal digits.
+/// Returns the SHA-256 of some bytes, in hexadecimal digits.
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::new(), |mut digits, byte| {
         let _ = write!(digits, "{byte:02x}");
@@ -15,19 +15,19 @@ pub fn sha256(bytes: &[u8]) -> String {
     })
 }
 
-/// The hash of a frame: of the words of its map, plane by plane, the least significant byte of each first.
+/// Returns the hash of a frame: of the words of its map, plane by plane, the least significant byte of each first.
 pub fn frame(map: &[u32]) -> String {
     let bytes: Vec<u8> = map.iter().flat_map(|word| word.to_le_bytes()).collect();
     sha256(&bytes)
 }
 
-/// One JSON document on a line.
+/// Returns one JSON document on a line.
 pub fn json(value: &impl Serialize) -> String {
-    // Keys are strings and numbers are integers: there is nothing that JSON cannot say.
+    // Keys are strings and numbers are integers: JSON can hold all of them.
     serde_json::to_string(value).unwrap_or_default() + "\n"
 }
 
-/// The hashes of all cases and frames as the project keeps them, a line each.
+/// Returns the hashes of all cases and frames as the project keeps them, a line each.
 #[must_use]
 pub fn hashes(cases: &[Case]) -> String {
     let mut lines = String::new();

@@ -38,7 +38,7 @@ const DEEP: Layout = Layout { depth_bits: 24, depth_motion: true, ..Layout::VELO
 /// No depth: nothing is foreground.
 const FLAT: Layout = Layout { colour: Colour::RGB888, velocity: true, tag_bits: 5, ..Layout::STILL };
 
-/// All cases over those layouts of the others in which something moves, and over two layouts more.
+/// Returns all cases over those layouts of the others in which something moves, and over two layouts more.
 pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     let bits = Bits::derive_without_acceleration(Demand { extent: 1024, recog: 8, prop: 16 })?;
     let more = [Model::new("deep", DEEP, bits)?, Model::new("flat", FLAT, bits)?];

@@ -1,4 +1,4 @@
-//! Cases of layers: what they say, and the core run over their inputs.
+//! Cases of layers: their content, and the core run over their inputs.
 
 use galpix_core::layers::{self, Layer, Stationary, composite_words, displacement_word};
 use galpix_core::{Dynamic, Galpixmap, Grid, Scratch, SetupError, stages};
@@ -12,7 +12,7 @@ use crate::run::{GridMemory, Memory, Model, Plan, RunError, planes};
 /// Layers, and some frames of them.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Layers {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// How all layers are made.
@@ -31,8 +31,9 @@ pub struct Layers {
 /// One layer at first.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LayerAtFirst {
-    /// Whether it is anchored.
-    pub anchored: bool,
+    /// Whether it is a stationary-source layer.
+    #[serde(rename = "anchored")]
+    pub stationary: bool,
     /// Whether it has a winner map.
     pub winners: bool,
     /// Whether it has an edge map.
@@ -45,9 +46,9 @@ pub struct LayerAtFirst {
 /// What a layer holds.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Own {
-    /// Its own galpixels; of an anchored layer what is stored.
+    /// Its own galpixels; of a stationary-source layer what is stored.
     pub map: Vec<u32>,
-    /// Of an anchored layer the word of the displacement of each cell; else empty.
+    /// Of a stationary-source layer the word of the displacement of each cell; else empty.
     pub displacements: Vec<u32>,
 }
 
@@ -73,7 +74,7 @@ pub struct LayersAfter {
 }
 
 impl Layers {
-    /// The arrays of a case by their names.
+    /// Returns the arrays of a case by their names.
     pub fn arrays(&self) -> Vec<(String, Vec<u32>)> {
         let mut arrays = Vec::new();
         let mut push = |name: String, words: &[u32]| {
@@ -98,25 +99,25 @@ impl Layers {
     }
 }
 
-/// A layer beside the base, as it is drawn.
+/// A hidden layer, as it is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Hidden {
     /// What its map shows.
     pub picture: Picture,
-    /// Whether it is anchored.
-    pub anchored: bool,
+    /// Whether it is a stationary-source layer.
+    pub stationary: bool,
     /// Whether it has a winner map.
     pub winners: bool,
     /// Whether it has an edge map.
     pub edges: bool,
 }
 
-/// Memory of a layer beside the base.
+/// Memory of a hidden layer.
 struct LayerMemory {
     maps: [Vec<u32>; 3],
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
     displacements: Vec<u32>,
 }
 
@@ -128,7 +129,7 @@ impl LayerMemory {
             maps: [map.clone(), empty.clone(), empty],
             winners: vec![0; if *winners { grid.cells() as usize } else { 0 }],
             edges: vec![0; if *edges { stages::words(grid) } else { 0 }],
-            seats: vec![0; composite_words(grid)],
+            composited: vec![0; composite_words(grid)],
             displacements: displacements.clone(),
         }
     }
@@ -139,7 +140,7 @@ impl LayerMemory {
         format: Dynamic,
         stationary: bool,
     ) -> Result<Layer<'m, Dynamic>, SetupError> {
-        let Self { maps: [first, second, third], winners, edges, seats, displacements } = self;
+        let Self { maps: [first, second, third], winners, edges, composited, displacements } = self;
         let lay = |memory| Galpixmap::over(grid, format, memory);
         if stationary {
             return Layer::stationary(
@@ -147,10 +148,10 @@ impl LayerMemory {
                 lay(second)?,
                 lay(third)?,
                 winners,
-                seats,
+                composited,
             );
         }
-        Layer::new(lay(first)?, lay(second)?, Scratch { winners, edges }, seats)
+        Layer::new(lay(first)?, lay(second)?, Scratch { winners, edges }, composited)
     }
 }
 
@@ -168,22 +169,22 @@ impl Model {
     pub fn layered(&self, plan: &Plan, hidden: &[Hidden], random: &mut Random) -> Result<Content, RunError> {
         let mut starts = GridMemory::new(plan.grid);
         let grid = starts.grid()?;
-        let base = Hidden { picture: plan.picture, anchored: false, winners: true, edges: true };
+        let base = Hidden { picture: plan.picture, stationary: false, winners: true, edges: true };
         let at_first: Vec<LayerAtFirst> = std::iter::once(&base)
             .chain(hidden)
-            .map(|&Hidden { picture, anchored, winners, edges }| {
+            .map(|&Hidden { picture, stationary, winners, edges }| {
                 let map = words(picture, self.record(), &plan.grid, random);
-                let displacements = if anchored { displacements(grid.cells(), random) } else { Vec::new() };
-                LayerAtFirst { anchored, winners, edges, own: Own { map, displacements } }
+                let displacements = if stationary { displacements(grid.cells(), random) } else { Vec::new() };
+                LayerAtFirst { stationary, winners, edges, own: Own { map, displacements } }
             })
             .collect();
         let mut base = Memory::new(&at_first[0].own.map, &grid, true);
         let mut memories: Vec<LayerMemory> = at_first[1..].iter().map(|layer| LayerMemory::new(layer, &grid)).collect();
-        let mut beside = Vec::new();
+        let mut hidden_layers = Vec::new();
         for (memory, kind) in memories.iter_mut().zip(hidden) {
-            beside.push(memory.layer(grid, self.format, kind.anchored)?);
+            hidden_layers.push(memory.layer(grid, self.format, kind.stationary)?);
         }
-        let mut layers = layers::Layers::new(base.controller(grid, self.format)?, &mut beside)?;
+        let mut layers = layers::Layers::new(base.controller(grid, self.format)?, &mut hidden_layers)?;
         layers.set_frame(plan.frame);
         let showing = |layers: &layers::Layers<'_, '_, Dynamic>| Shown {
             map: planes(layers.front()),
@@ -197,9 +198,9 @@ impl Model {
                 } else {
                     layers.step(&plan.settings)
                 };
-                let beside = layers.hidden().iter().map(|layer| *layer.tally());
+                let tallies = layers.hidden().iter().map(|layer| *layer.tally());
                 LayersAfter {
-                    counts: std::iter::once(base).chain(beside).map(Counts::from).collect(),
+                    counts: std::iter::once(base).chain(tallies).map(Counts::from).collect(),
                     shown: layers.hidden().iter().map(Layer::shown).collect(),
                     showing: showing(&layers),
                 }

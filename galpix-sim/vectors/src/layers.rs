@@ -1,4 +1,4 @@
-//! Which cases of layers there are: every layout under its budget, with one to three layers beside the base.
+//! Which cases of layers there are: every layout under its budget, with one to three hidden layers.
 
 use galpix_core::stages::threshold_for_depth;
 use galpix_core::{FillMode, Rounding, Settings};
@@ -9,7 +9,7 @@ use crate::layered::Hidden;
 use crate::maps::{Picture, Random};
 use crate::run::{Model, Plan, RunError};
 
-/// A word of flags and its neighbours; wings.
+/// A word of flags and its neighbours; margin.
 const SHAPES: [GridSize; 5] = [
     grid(16, 12, [0; 4]),
     grid(7, 5, [2, 1, 3, 0]),
@@ -18,7 +18,7 @@ const SHAPES: [GridSize; 5] = [
     grid(12, 9, [0; 4]),
 ];
 
-/// A moving layer with all its memory; the others lack some of it, or are anchored.
+/// A moving layer with all its memory; the others lack some of it, or are stationary.
 const KINDS: [[bool; 3]; 5] =
     [[false, true, true], [true, true, false], [false, true, false], [true, false, false], [false, false, true]];
 
@@ -32,7 +32,7 @@ const PICTURES: [[Picture; 4]; 6] = [
     [Picture::Empty, Picture::Blocks, Picture::Random, Picture::Extreme],
 ];
 
-/// All cases over the layouts of the others.
+/// Returns all cases over the layouts of the others.
 pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     let mut cases = Vec::new();
     for (place, model) in models.iter().enumerate() {
@@ -41,8 +41,8 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
             let turn = place * PICTURES.len() + index;
             let hidden: Vec<Hidden> = (0..1 + turn % 3)
                 .map(|layer| {
-                    let [anchored, winners, edges] = KINDS[(turn + 2 * layer) % KINDS.len()];
-                    Hidden { picture: pictures[layer + 1], anchored, winners, edges }
+                    let [stationary, winners, edges] = KINDS[(turn + 2 * layer) % KINDS.len()];
+                    Hidden { picture: pictures[layer + 1], stationary, winners, edges }
                 })
                 .collect();
             let settings = Settings {

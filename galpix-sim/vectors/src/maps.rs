@@ -1,4 +1,4 @@
-//! What the maps of the vectors hold: words drawn field by field, so that every bit is said by the record alone.
+//! What the maps of the vectors hold: words drawn field by field, so that each bit follows from the record alone.
 
 use galpix_core::record::{Field, MAX_WORDS};
 use galpix_core::stages::threshold_for_depth;
@@ -12,7 +12,7 @@ use crate::field::{Words, set};
 pub struct Random(u64);
 
 impl Random {
-    /// A sequence that `seed` and `name` determine.
+    /// Creates a sequence that `seed` and `name` determine.
     pub fn new(seed: u64, name: &str) -> Self {
         // FNV-1a over the name, so that a case keeps its map when others come and go.
         let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
@@ -29,12 +29,12 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number in `0 .. end`.
+    /// Returns a number in `0 .. end`.
     pub fn below(&mut self, end: u32) -> u32 {
         (((self.next() >> 32) * u64::from(end)) >> 32) as u32
     }
 
-    /// A signed number of `bits` bits.
+    /// Returns a signed number of `bits` bits.
     pub fn signed(&mut self, bits: u32) -> i32 {
         if bits == 0 { 0 } else { self.next() as i32 >> (32 - bits) }
     }
@@ -69,7 +69,7 @@ pub enum Picture {
     Still,
     /// Two halves, a far and a near one, fly apart along the longer side, each row (or column) by a cell more.
     Tear,
-    /// A block slides over a wide ground of two depths, so that long runs beside what it uncovers are known.
+    /// A block slides over a wide ground of two depths, so that long runs next to what it uncovers are known.
     Slide,
     /// One surface whose cells creep apart by units of the last bits, so that in some frames they do not part and in
     /// more they do.
@@ -96,7 +96,7 @@ impl Picture {
         Self::Still,
     ];
 
-    /// Its part of a case's name.
+    /// Returns its part of a case's name.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Random => "random",
@@ -119,12 +119,12 @@ impl Picture {
     }
 }
 
-/// Columns and rows of a map, wings included.
+/// Returns the columns and rows of a map, margin included.
 pub fn size(grid: &GridSize) -> (u32, u32) {
     (grid.left + grid.width + grid.right, grid.top + grid.height + grid.bottom)
 }
 
-/// The words of a map, plane by plane.
+/// Returns the words of a map, plane by plane.
 pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Random) -> Vec<u32> {
     let (columns, rows) = size(grid);
     let cells = (columns * rows) as usize;
@@ -154,7 +154,7 @@ fn each_field(record: &Record, mut value: impl FnMut(&str, Field) -> i32) -> Wor
     words
 }
 
-/// The fraction bits of a component of the plane.
+/// Returns the fraction bits of a component of the plane.
 fn velocity_frac(record: &Record, name: &str) -> u32 {
     record.scales[usize::from(name.ends_with('y'))].velocity_frac
 }
@@ -273,7 +273,7 @@ fn drawn(picture: Picture, record: &Record, at: [u32; 2], size: [u32; 2], random
     words
 }
 
-/// A colour that tells places apart.
+/// Returns a colour that identifies places.
 fn random_colour(x: i32, y: i32, spread: u32) -> u32 {
     (x as u32 * 37 + spread) << 16 ^ (y as u32 * 59 + spread) << 8 ^ (x as u32 * 11 + y as u32 * 3 + spread)
 }

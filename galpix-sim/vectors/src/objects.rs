@@ -1,4 +1,4 @@
-//! Cases of objects that are grafted by their tags: which there are, what they say, and the core run over their inputs.
+//! Cases of objects that are grafted by their tags: which there are, their content, and the core run over their inputs.
 
 use galpix_core::objects::{Object, ObjectsTally, replace};
 use galpix_core::{Bits, Colour, Demand, Galpixmap, Layout, Rounding};
@@ -13,7 +13,7 @@ use crate::run::{GridMemory, Model, RunError, planes};
 /// A map and renderings that enter it at one frame boundary.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Objects {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// The rounding's name.
@@ -33,7 +33,7 @@ pub struct Rendering {
     pub tag: u32,
     /// The frame counter that it is exact at.
     pub stamp: u32,
-    /// Column and row of the rectangle in the map, wings included.
+    /// Column and row of the rectangle in the map, margin included.
     pub place: [u32; 2],
     /// Columns and rows of the rectangle.
     pub size: [u32; 2],
@@ -65,7 +65,7 @@ impl From<ObjectsTally> for Grafted {
 }
 
 impl Objects {
-    /// The arrays of a case by their names.
+    /// Returns the arrays of a case by their names.
     pub fn arrays(&self) -> Vec<(String, Vec<u32>)> {
         let mut arrays = vec![("front".to_owned(), self.front.clone())];
         for (n, rendering) in (1..).zip(&self.renderings) {
@@ -94,11 +94,11 @@ const PICTURES: [(Picture, Picture, [u32; 3]); 5] = [
     (Picture::Empty, Picture::Zoom, [4, 0, 1]),
 ];
 
-/// Wider than a word has bits, wings, and a single cell.
+/// Wider than a word has bits, margin, and a single cell.
 const SHAPES: [GridSize; 4] =
     [grid(33, 6, [1, 0, 0, 1]), grid(12, 9, [0; 4]), grid(7, 5, [2, 1, 3, 0]), grid(1, 1, [0; 4])];
 
-/// All cases.
+/// Returns all cases.
 pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     let bits = Bits::derive(Demand { extent: 64, recog: 8, prop: 8 })?;
     let slide = Bits::derive_without_acceleration(Demand { extent: 128, recog: 4, prop: 16 })?;

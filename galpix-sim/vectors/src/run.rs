@@ -8,7 +8,7 @@ use galpix_core::{
     Settings, SetupError, Tally,
 };
 
-use crate::arrivals::{Arrival, arrivals, settle};
+use crate::arrivals::{Arrival, arrivals, resolve};
 use crate::case::{
     ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Making, Resolve, Setting, Step,
 };
@@ -49,7 +49,7 @@ impl Plan {
         let Settings { rounding, fill_mode, edge_threshold, reach } = self.settings;
         Making {
             rounding: rounding.name().to_owned(),
-            rung: fill_mode.name().to_owned(),
+            fill_mode: fill_mode.name().to_owned(),
             reach,
             threshold: if fill_mode.uses_edges() { edge_threshold } else { 0 },
             frame: self.frame,
@@ -122,7 +122,7 @@ impl Model {
             arrived.swap(end, random.below(end as u32 + 1) as usize);
         }
         let mut winners = vec![0; grid.cells() as usize];
-        let settled = settle(arrived.iter().copied(), &mut back, &mut winners);
+        let resolved = resolve(arrived.iter().copied(), &mut back, &mut winners);
         let setting = self.setting(plan.grid);
         let arrival_words = |&Arrival { source, cell, words, .. }: &Arrival| {
             let words = words[..self.record().words()].to_vec();
@@ -133,8 +133,8 @@ impl Model {
             arrivals: arrived.iter().map(arrival_words).collect(),
             map: planes(&back),
             winners: winners.clone(),
-            // Fields saturate on the way, not when they settle.
-            counts: Tally { saturated: 0, ..settled }.into(),
+            // Fields saturate in the step, not in the resolution.
+            counts: Tally { saturated: 0, ..resolved }.into(),
         };
         let edge = Edge {
             setting: setting.clone(),
@@ -149,7 +149,7 @@ impl Model {
         stages::fill(&front, &mut back, &mut scratch, &plan.settings, &mut tally);
         let fill = Fill {
             setting,
-            rung: fill_mode.name().to_owned(),
+            fill_mode: fill_mode.name().to_owned(),
             reach,
             edges,
             front: front_words,
@@ -262,7 +262,7 @@ impl GridMemory {
     }
 }
 
-/// Memory for the maps of a controller and what a frame needs beside them.
+/// Memory for the maps of a controller and its scratch buffers.
 pub struct Memory {
     maps: [Vec<u32>; 2],
     winners: Vec<u32>,

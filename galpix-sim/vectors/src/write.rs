@@ -36,7 +36,7 @@ pub fn write<E>(seed: u64, cases: &[Case], mut save: impl FnMut(&str, &str) -> R
     Ok(manifest)
 }
 
-/// Words as `$readmemh` reads them.
+/// Returns words as `$readmemh` reads them.
 fn readmemh(case: &str, name: &str, words: &[u32]) -> String {
     let mut text = format!("// {case}: {name}, {} words\n", words.len());
     for word in words {
@@ -45,7 +45,7 @@ fn readmemh(case: &str, name: &str, words: &[u32]) -> String {
     text
 }
 
-/// The arrays of a case by their names.
+/// Returns the arrays of a case by their names.
 fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
     let named = |list: Vec<(&str, Vec<u32>)>| list.into_iter().map(|(name, words)| (name.to_owned(), words)).collect();
     match content {

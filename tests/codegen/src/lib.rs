@@ -65,7 +65,7 @@ macro_rules! passes {
                 stages::mark(front, threshold, edges)
             }
 
-            /// The fill ladder.
+            /// The fill modes.
             #[unsafe(export_name = concat!("proof_fill_", stringify!($name)))]
             pub fn fill(
                 front: &Galpixmap<'_, Format>,
@@ -216,7 +216,7 @@ passes! {
     velocity_gray4: VELOCITY_GRAY4, WITHOUT_ACCELERATION;
 }
 
-/// What replaces objects, beside the passes.
+/// What replaces objects, besides the passes.
 pub mod of_objects {
     use super::*;
 

@@ -19,20 +19,20 @@ pub enum Board {
 /// How a board's program fills what a frame uncovers. Each is a program of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Filling {
-    /// By the fill ladder.
-    Ladder,
+    /// By the fill mode.
+    FillMode,
     /// By push-pull after it: the feature `push-pull` of the boards.
     PushPull,
 }
 
 impl Filling {
     /// Both.
-    pub const ALL: [Self; 2] = [Self::Ladder, Self::PushPull];
+    pub const ALL: [Self; 2] = [Self::FillMode, Self::PushPull];
 
-    /// What is added to the name of a program or a scene.
+    /// Returns what is added to the name of a program or a scene.
     pub const fn suffix(self) -> &'static str {
         match self {
-            Self::Ladder => "",
+            Self::FillMode => "",
             Self::PushPull => "-push-pull",
         }
     }
@@ -42,7 +42,7 @@ impl Board {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Lm3s6965evb, Self::VexpressA9];
 
-    /// Its name: the emulator's, and that of its program.
+    /// Returns its name: the emulator's, and that of its program.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Lm3s6965evb => "lm3s6965evb",
@@ -50,7 +50,7 @@ impl Board {
         }
     }
 
-    /// Its panel.
+    /// Returns its panel.
     pub const fn panel(self) -> Description {
         match self {
             Self::Lm3s6965evb => Oled::DESCRIPTION,
@@ -67,7 +67,7 @@ impl Board {
         scales.iter().map(|scale| 1 << scale.down).max().unwrap_or(1)
     }
 
-    /// Its program.
+    /// Returns its program.
     pub fn program(self, firmware: &Path, filling: Filling) -> PathBuf {
         let target = match self {
             Self::Lm3s6965evb => "thumbv7m-none-eabi",
@@ -76,7 +76,7 @@ impl Board {
         firmware.join("target").join(target).join("release").join(format!("{}{}", self.name(), filling.suffix()))
     }
 
-    /// The panel's pixels on the emulated screen, with 8 bits a channel as [`Self::shown`] makes them.
+    /// Returns the panel's pixels on the emulated screen, with 8 bits per channel as [`Self::shown`] makes them.
     ///
     /// The OLED is drawn four times as large; each pixel's block must be of one colour. The LCD's pixels are as they
     /// are.
@@ -110,7 +110,7 @@ impl Board {
         Ok(Picture { width, height, pixels })
     }
 
-    /// How the emulator shows a colour word: gray levels times 17, and the 5 or 6 bits of a channel at its top.
+    /// Returns how the emulator shows a colour word: gray levels times 17, and the 5 or 6 bits of a channel at its top.
     pub fn shown(self, colour: u32) -> [u8; 3] {
         match self {
             Self::Lm3s6965evb => [(colour * 17) as u8; 3],

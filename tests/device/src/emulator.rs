@@ -90,7 +90,7 @@ impl Emulator {
             return Err(Failure::new(format!("{}: the emulator has ended", self.board.name())));
         }
         serde_json::from_str(&line)
-            .map_err(|error| Failure::new(format!("the emulator says what is no JSON ({error}): {line}")))
+            .map_err(|error| Failure::new(format!("the emulator's answer is no JSON ({error}): {line}")))
     }
 
     fn command(&mut self, command: &Value) -> Result<(), Failure> {
@@ -106,22 +106,20 @@ impl Emulator {
         }
     }
 
-    /// What its panel shows.
+    /// Returns what its panel shows.
     pub fn screen(&mut self) -> Result<Picture, Failure> {
         let file = self.folder.path().join("screen.png");
         self.command(&json!({
             "execute": "screendump",
             "arguments": { "filename": file.display().to_string(), "format": "png" }
         }))?;
-        let image = image::open(&file)
-            .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?
-            .to_rgb8();
-        let (width, height) = (image.width() as usize, image.height() as usize);
-        let screen = Picture { width, height, pixels: image.pixels().map(|pixel| pixel.0).collect() };
+        let screen = std::fs::read(&file)
+            .and_then(|bytes| Picture::from_png(&bytes))
+            .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?;
         self.board.pixels(&screen)
     }
 
-    /// Whether the program still runs.
+    /// Returns whether the program still runs.
     pub fn runs(&mut self) -> bool {
         matches!(self.child.0.try_wait(), Ok(None))
     }

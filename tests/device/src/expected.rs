@@ -39,7 +39,7 @@ pub enum Shows<'s> {
     Sent(&'s [u32]),
 }
 
-/// The `frames` frames after frame `first`, in which the board was told what to show.
+/// Returns the `frames` frames after frame `first`, in which the board was controlled.
 pub fn frames(
     (board, filling): (Board, Filling),
     shows: Shows<'_>,

@@ -13,18 +13,18 @@ use crate::boards::{Board, Filling};
 use crate::emulator::{Emulator, Pace};
 use crate::failure::Failure;
 
-/// Frames that are sent before the board is asked how it is.
+/// Frames that are sent before the board's status is requested.
 const BATCH: u32 = 100;
 
 /// Sends `count` frames to each board.
 pub fn run(firmware: &Path, count: u32) -> Result<(), Failure> {
     for board in Board::ALL {
-        let mut emulator = Emulator::start(board, Filling::Ladder, firmware, Pace::Free)?;
+        let mut emulator = Emulator::start(board, Filling::FillMode, firmware, Pace::Free)?;
         let before = emulator.line.status()?;
         let mut random = SmallRng::seed_from_u64(count.into());
         let (mut accepted, mut rejected) = (0u32, Rejections::new());
         let (mut last, mut sent) = (before.frame, 0);
-        // The same receiver as the board's tells what the board must count.
+        // A receiver like the board's gives the expected counts.
         let mut decoder = Decoder::new();
         while sent < count {
             let now = emulator.line.status()?.frame;
@@ -89,7 +89,7 @@ pub fn run(firmware: &Path, count: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The bytes of a frame that is random, broken, or good and absurd.
+/// Returns the bytes of a frame that is random, broken, or good and absurd.
 fn hostile(random: &mut SmallRng, panel: &Description, now: u32) -> Vec<u8> {
     let galpixels = panel.bytes_per_galpixel() * random.random_range(1..=4);
     let words: Vec<u8> = (0..galpixels.min(MAX_WORD_BYTES)).map(|_| random.random()).collect();
@@ -112,7 +112,7 @@ fn hostile(random: &mut SmallRng, panel: &Description, now: u32) -> Vec<u8> {
         2 => encode(Frame::Galpixels(Galpixels { x: panel.width, y: random.random(), ..good })),
         // No whole galpixels, where galpixels have several words.
         3 => encode(Frame::Galpixels(Galpixels { words: &words[..4], ..good })),
-        // A scene that may not exist, and what only devices say.
+        // A scene that may not exist, and what only devices send.
         4 => encode(Frame::Scene { number: random.random_range(0..200) }),
         5 => encode(Frame::Shown { frame: random.random(), hash: random.random() }),
         // Nothing but noise.

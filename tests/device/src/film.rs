@@ -19,7 +19,7 @@ const MOST_BYTES: usize = 1_500_000;
 pub fn run(firmware: &Path, frames: u32) -> Result<(), Failure> {
     let mut shots: Vec<Vec<Picture>> = Vec::new();
     for board in Board::ALL {
-        let mut emulator = Emulator::start(board, Filling::Ladder, firmware, Pace::Free)?;
+        let mut emulator = Emulator::start(board, Filling::FillMode, firmware, Pace::Free)?;
         lockstep(&mut emulator)?;
         let mut of_board = Vec::new();
         for number in 0..scene::ALL.len() as u8 {

@@ -21,7 +21,7 @@ pub struct Line {
     waiting: Vec<u8>,
 }
 
-/// What a board says.
+/// What a board sends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Said {
     /// How it is.
@@ -31,12 +31,12 @@ pub enum Said {
 }
 
 impl Line {
-    /// A line over an open stream.
+    /// Creates a line over an open stream.
     pub fn new(stream: UnixStream, board: Board) -> Self {
         Self { stream, board, decoder: Decoder::new(), waiting: Vec::new() }
     }
 
-    /// Waits until the board answers. What comes before it has set its line up is lost: so it is asked again and again.
+    /// Waits until the board answers. What is sent before its line is set up is lost: so the request is repeated.
     pub fn greet(&mut self) -> Result<(), Failure> {
         self.stream.set_read_timeout(Some(Duration::from_millis(500)))?;
         let begin = Instant::now();
@@ -50,7 +50,7 @@ impl Line {
             }
         }
         self.stream.set_read_timeout(Some(PATIENCE))?;
-        // The answers to what was asked more than once come before that to this.
+        // The answers to repeated requests come before the answer to this one.
         self.status()?;
         while !self.waiting.is_empty() {
             self.status()?;
@@ -70,7 +70,7 @@ impl Line {
         Ok(self.stream.write_all(bytes)?)
     }
 
-    /// Waits for the next thing that the board says.
+    /// Waits for the next frame from the board.
     pub fn listen(&mut self) -> Result<Said, Failure> {
         loop {
             while !self.waiting.is_empty() {
@@ -79,7 +79,7 @@ impl Line {
                     Some(Ok(Frame::Status(status))) => return Ok(Said::Status(status)),
                     Some(Ok(Frame::Shown { frame, hash })) => return Ok(Said::Shown(frame, hash)),
                     Some(other) => {
-                        return Err(Failure::new(format!("{} says {other:?}", self.board.name())));
+                        return Err(Failure::new(format!("{} sent {other:?}", self.board.name())));
                     }
                 }
             }

@@ -1,4 +1,4 @@
-//! The firmware in an emulator, beside the simulator.
+//! The firmware in an emulator, compared with the simulator.
 //!
 //! Each command starts the boards' programs in QEMU, talks to them over their serial lines as any host does, and looks
 //! at their emulated screens. `firmware/test.sh` builds the programs and calls this.
@@ -20,7 +20,7 @@ use clap::{Parser, Subcommand};
 
 use failure::Failure;
 
-/// The firmware in an emulator, beside the simulator.
+/// The firmware in an emulator, compared with the simulator.
 #[derive(Debug, Parser)]
 #[command(name = "device", max_term_width = 100)]
 struct Arguments {

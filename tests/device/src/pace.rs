@@ -13,13 +13,13 @@ use crate::failure::Failure;
 /// Frames that are watched.
 const FRAMES: u32 = 240;
 
-/// What a board is meant to reach at a pace: the longest frame takes at most so many million instructions a second at
-/// 60 frames a second, and no vsync is missed if that is less than the pace.
+/// Returns what a board is meant to reach at a pace: the longest frame takes at most so many million instructions a
+/// second at 60 frames a second, and no vsync is missed if that is less than the pace.
 const fn meant(board: Board, filling: Filling) -> (u32, f64) {
     match (board, filling) {
-        (Board::Lm3s6965evb, Filling::Ladder) => (4, 55.0),
+        (Board::Lm3s6965evb, Filling::FillMode) => (4, 55.0),
         (Board::Lm3s6965evb, Filling::PushPull) => (3, 130.0),
-        (Board::VexpressA9, Filling::Ladder) => (0, 1000.0),
+        (Board::VexpressA9, Filling::FillMode) => (0, 1000.0),
         // The emulator has no faster one.
         (Board::VexpressA9, Filling::PushPull) => (0, 1600.0),
     }
@@ -69,7 +69,7 @@ pub fn run(firmware: &Path, check: bool) -> Result<(), Failure> {
 }
 
 /// Waits until so many more frames have been shown: how the board is then, and how busy in the longest of them, for it
-/// begins anew each time that it is asked.
+/// begins anew with each request.
 fn wait(emulator: &mut Emulator, frames: u32) -> Result<galpix_link::frame::Status, Failure> {
     let begin = emulator.line.status()?.frame;
     let (started, mut busy) = (Instant::now(), 0);

@@ -90,7 +90,7 @@ fn sent(emulator: &mut Emulator, board: Board) -> Result<(u32, Vec<u32>), Failur
             emulator.line.send(&Frame::Galpixels(Galpixels { update, stamp, fingerprint, y, x, words }))?;
             count += 1;
         }
-        // No more is on its way than the line holds.
+        // No more is in transmission than the line holds.
         emulator.line.status()?;
     }
     let after = emulator.line.status()?;

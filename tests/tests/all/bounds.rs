@@ -4,7 +4,7 @@ use fixed::types::I32F32;
 use galpix_core::{Bits, Class, Demand, FillMode, Format, Galpixel, Layout, Record, Rounding, Settings};
 use galpix_sim::certificate::Certificate;
 use galpix_sim::engine::Engine;
-use galpix_tests::lent::{Shape, with_controller};
+use galpix_tests::memory::{Shape, with_controller};
 use galpix_tests::profiles::dynamic;
 use galpix_tests::stage::{self, Stage, number};
 
@@ -28,7 +28,7 @@ fn no_galpixel_of_a_second_order_scene_is_farther_off_than_the_certificate() {
         scenes += 1;
         let (scene, update) = (stage.scene, &stage.update);
         let (bits, prop) = budget(&stage);
-        let margin = [update.wings.left as f64, update.wings.top as f64];
+        let margin = [update.margin.left as f64, update.margin.top as f64];
         let format = dynamic(Layout::FULL, bits);
         for rounding in Rounding::ALL {
             let certificate = certificate(format.record(), rounding, prop);
@@ -61,8 +61,8 @@ fn no_galpixel_of_a_second_order_scene_is_farther_off_than_the_certificate() {
     assert!(scenes >= 5, "only {scenes} scenes are of second order");
 }
 
-/// The largest error of each frame, the first after `phase` of the frame counter, over all low bits of velocity and
-/// acceleration, with position, velocity and acceleration each a hair less than half a last bit from what can be
+/// Returns the largest error of each frame, the first after `phase` of the frame counter, over all low bits of velocity
+/// and acceleration, with position, velocity and acceleration each a hair less than half a last bit from what can be
 /// stored.
 ///
 /// One state a row, so that none meets another.

@@ -1,11 +1,12 @@
-//! The depth discontinuity occlusion camera on whole worlds: what it is for, and that what it stores is where it says.
+//! The depth discontinuity occlusion camera on whole worlds: what it is for, and that its samples are where it claims.
 
+use galpix_sim::source::ddoc::distortion;
+use galpix_sim::source::ddoc::hidden::{HiddenSample, hidden};
 use galpix_sim::source::scene;
-use galpix_sim::study::ddoc::hidden::{HiddenSample, hidden};
 use galpix_sim::study::ddoc::missing::{TOLERANCE, desired, mask};
 use galpix_sim::study::ddoc::view::View;
 use galpix_sim::study::ddoc::warp::warp;
-use galpix_sim::study::ddoc::{Request, distortion, open, reference, study};
+use galpix_sim::study::ddoc::{Request, open, reference, study};
 
 /// Figure 9 of the paper: what the frames of the DDOC image lack is 7 to 13 % of what those of the depth image lack.
 #[test]
@@ -78,7 +79,7 @@ fn galpixels_of_a_scene_know_where_they_are() {
         assert!(behind.len() > 200 && behind.len() < samples.len() / 3, "{name}: {}", behind.len());
         let mut moved = 0;
         for sample in &samples {
-            let [x, y] = [sample.place[0] - update.wings.left as f64, sample.place[1] - update.wings.top as f64];
+            let [x, y] = [sample.place[0] - update.margin.left as f64, sample.place[1] - update.margin.top as f64];
             let seen = scene.sample(x, y, 0.0);
             if sample.hidden {
                 assert!(sample.sample.depth >= seen.depth, "{name}: {sample:?} before {seen:?}");
@@ -96,7 +97,7 @@ fn galpixels_of_a_scene_know_where_they_are() {
             moved += usize::from(by != [0, 0]);
         }
         assert!(moved > behind.len() / 2, "{name}: {moved}");
-        // One a cell, row by row.
+        // One per cell, row by row.
         assert!(samples.windows(2).all(|pair| (pair[0].cell[1], pair[0].cell[0]) < (pair[1].cell[1], pair[1].cell[0])));
     }
 }

@@ -9,7 +9,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The words between backticks.
+/// Returns the words between backticks.
 fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
@@ -18,13 +18,13 @@ fn core() -> PathBuf {
     root().join("galpix-core/src")
 }
 
-/// The file of a module of the core.
+/// Returns the file of a module of the core.
 fn file_of(module: &[&str]) -> Option<PathBuf> {
     let path = core().join(module.join("/"));
     [path.with_extension("rs"), path.join("mod.rs")].into_iter().find(|file| file.exists())
 }
 
-/// Where the core's root has a name from: public module (or none), name, and the module that defines it.
+/// Returns where the core's root has a name from: public module (or none), name, and the module that defines it.
 fn exports() -> Vec<(String, String, String)> {
     let (mut exports, mut module) = (Vec::new(), String::new());
     for line in fs::read_to_string(core().join("lib.rs")).unwrap().lines() {
@@ -124,7 +124,7 @@ fn the_specification_has_the_engines_threshold_tables() {
     assert_eq!(tables, Rounding::MOST_SEARCHED);
 }
 
-/// The first Rust program of a text, whose lines begin with `prefix`.
+/// Returns the first Rust program of a text, whose lines begin with `prefix`.
 fn program(text: &str, prefix: &str) -> String {
     let lines =
         text.lines().map(|line| line.strip_prefix(prefix).or(line.strip_prefix(prefix.trim_end())).unwrap_or(line));

@@ -10,7 +10,7 @@ fn the_figures_of_the_documents_are_what_the_engine_makes() {
         let path = entry.expect("an entry").path();
         let Some(scene) = path.file_stem().and_then(|stem| stem.to_str()) else { continue };
         let kept = std::fs::read(&path).expect("a figure");
-        let made = galpix_sim::output::figure::made(scene).unwrap_or_else(|error| panic!("{error}"));
+        let made = galpix_sim::figure::made(scene).unwrap_or_else(|error| panic!("{error}"));
         assert!(
             kept == made,
             "docs/figures/{scene}.png is not what the engine makes today: look at what changed, then make it anew with \
@@ -18,5 +18,5 @@ fn the_figures_of_the_documents_are_what_the_engine_makes() {
         );
         compared += 1;
     }
-    assert!(compared == galpix_sim::output::figure::NAMES.len(), "only {compared} figures");
+    assert!(compared == galpix_sim::figure::NAMES.len(), "only {compared} figures");
 }

@@ -1,4 +1,4 @@
-//! The fills side by side: figures that can be what they say, and foreground that stays out of what it uncovered.
+//! The comparison of fills: figures within their ranges, and foreground that stays out of what it uncovered.
 
 use galpix_sim::engine::fill::{Fill, Gamma};
 use galpix_sim::source::Source;
@@ -40,7 +40,7 @@ fn every_fill_has_figures_within_their_ranges() {
         assert!(fill.frames[3].figures.flicker.unwrap().abs() < 255.0);
         assert!(fill.time.unwrap().x_copy > 0.1, "{}: {:?}", fill.name, fill.time);
     }
-    // Black is the worst that can be put into a street, and what was there before is worse than what lies beside it.
+    // Black is the worst that can be put into a street, and what was there before is worse than what lies next to it.
     let psnr = |name: &str| of(&report, name).summary.psnr_db.unwrap();
     assert!(psnr("none") < psnr("hold") && psnr("hold") < psnr("extend"));
 }
@@ -61,7 +61,7 @@ fn a_fovea_is_neither_inpainted_nor_judged() {
     let whole = compared("fovea", 2, &["extend", "push-pull"], None, None);
     let around = compared("fovea", 2, &["extend", "push-pull"], None, Some(70));
     assert!(around.disoccluded() > 0 && around.disoccluded() < whole.disoccluded());
-    // With a fovea as large as the display, push-pull is the rung that it stands on.
+    // With a fovea as large as the display, push-pull is the fill mode that it stands on.
     let source = Source::open("fovea", &ImportOptions::default()).unwrap();
     let shown = |fill: Fill| {
         let mut pictures = Vec::new();

@@ -2,7 +2,7 @@
 
 use fixed::types::I32F32;
 use galpix_core::{Class, Delay, Dynamic, FillMode, Format, Galpixel, Grafted, Layout, Rounding, Settings, graft};
-use galpix_tests::lent::{Shape, cell_words, with_controller, with_maps};
+use galpix_tests::memory::{Shape, cell_words, with_controller, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
 use galpix_tests::stage::{self, number};
 
@@ -42,7 +42,7 @@ fn late_is_in_time(format: Dynamic, rounding: Rounding, late: u32) {
                 let in_time = cell_words(front, cell);
                 differ += u32::from(front.class(cell) != Class::Empty && in_time != grafted[cell as usize]);
             }
-            // One that lost a collision on the way is gone in the map, and may lie elsewhere and nearer when grafted.
+            // One that lost an earlier collision is gone in the map, and may lie elsewhere and nearer when grafted.
             assert!(differ <= collided, "{}: {differ} cells differ, {collided} collided", stage.scene.name());
             assert!(stage.scene.name() != "pan" || differ == 0, "a pan has no collisions");
         });

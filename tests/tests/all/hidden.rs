@@ -1,19 +1,19 @@
 //! What was hidden: samples are counted right, culling keeps what is needed, and no picture gets worse for it.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
-use galpix_sim::engine::{Beside, Engine, EngineError, MAX_BESIDE, NO_ORIGIN};
+use galpix_sim::engine::{Engine, EngineError, HiddenLayer, MAX_HIDDEN, NO_ORIGIN};
 use galpix_sim::picture::Picture;
 use galpix_sim::source::Source;
 use galpix_sim::source::capture::ImportOptions;
-use galpix_sim::source::hidden::{Arrangement, Kind, SEPARATION, Way};
+use galpix_sim::source::hidden::{Arrangement, Kind, SEPARATION, Strategy};
 use galpix_sim::source::scene;
 use galpix_sim::study::layers::report::SourceReport;
-use galpix_sim::study::layers::{Plan, Study, study, ways};
+use galpix_sim::study::layers::{Plan, Study, strategies, study};
 use galpix_sim::study::run::{self as experiment, ExperimentError, Request, RunReport};
 use galpix_sim::update::{Known, Sample, Update};
 
-const SECOND: Way = Way { kind: Kind::Second { separation: SEPARATION }, ..Way::ONE };
-const SHIPPED: Way = Way { culled: true, ..SECOND };
+const SECOND: Strategy = Strategy { kind: Kind::Second { separation: SEPARATION }, ..Strategy::ONE };
+const SHIPPED: Strategy = Strategy { culled: true, ..SECOND };
 
 fn open(name: &str) -> Source {
     Source::open(name, &ImportOptions::default()).expect("a built-in scene")
@@ -23,16 +23,16 @@ fn open(name: &str) -> Source {
 const DISOCCLUDED: [(&str, u32); 6] =
     [("pillars", 8), ("crossing", 8), ("disc", 8), ("sphere", 8), ("near-plane", 8), ("ball", 8)];
 
-fn run(name: &str, frames: u32, way: Way) -> (RunReport, Vec<Picture>) {
+fn run(name: &str, frames: u32, strategy: Strategy) -> (RunReport, Vec<Picture>) {
     let mut pictures = Vec::new();
-    let request = Request { frames: Some(frames), way, ..Request::default() };
+    let request = Request { frames: Some(frames), strategy, ..Request::default() };
     let report = experiment::run(&open(name), &request, |frame| pictures.push(frame.picture.clone())).unwrap();
     (report, pictures)
 }
 
 fn compared(name: &str, frames: u32) -> SourceReport {
     let request = Request { frames: Some(frames), ..Request::default() };
-    match study(&open(name), &Plan { request, ways: ways(SEPARATION) }, || {}).unwrap() {
+    match study(&open(name), &Plan { request, strategies: strategies(SEPARATION) }, || {}).unwrap() {
         Study::Compared(report) => *report,
         _ => panic!("{name}: nothing is disoccluded"),
     }
@@ -41,32 +41,32 @@ fn compared(name: &str, frames: u32) -> SourceReport {
 #[test]
 fn each_way_counts_what_it_offers_keeps_and_uses() {
     let report = compared("crossing", 6);
-    assert_eq!(report.ways.len(), ways(SEPARATION).len());
-    assert_eq!(report.ways[0].hidden, None);
-    for pair in report.ways[1..].chunks(2) {
-        let [whole, culled] = pair else { panic!("each way comes whole and culled") };
+    assert_eq!(report.strategies.len(), strategies(SEPARATION).len());
+    assert_eq!(report.strategies[0].hidden, None);
+    for pair in report.strategies[1..].chunks(2) {
+        let [whole, culled] = pair else { panic!("each strategy comes whole and culled") };
         let (all, kept) = (whole.hidden.as_ref().unwrap(), culled.hidden.as_ref().unwrap());
         assert!(all.offered == all.kept && all.used <= all.kept && all.used > 100, "{all:?}");
         assert!(kept.offered == all.offered && kept.kept < all.kept && kept.used <= kept.kept, "{kept:?}");
         assert!(culled.name.starts_with(&whole.name) && culled.update_us.unwrap() > 0.0 && whole.update_us.is_none());
-        for way in [whole, culled] {
-            assert!(way.missing < report.ways[0].missing, "{}: {} missing", way.name, way.missing);
-            assert!(way.disoccluded <= way.missing && way.frames.len() == 6);
-            assert!(way.x_one.unwrap() > 0.0);
+        for strategy in [whole, culled] {
+            assert!(strategy.missing < report.strategies[0].missing, "{}: {} missing", strategy.name, strategy.missing);
+            assert!(strategy.disoccluded <= strategy.missing && strategy.frames.len() == 6);
+            assert!(strategy.x_one.unwrap() > 0.0);
         }
     }
     // Every surface whole is the most that can be known.
-    let missing = |name: &str| report.way(name).unwrap().missing;
+    let missing = |name: &str| report.strategy(name).unwrap().missing;
     assert!(missing("unlimited") <= missing("second, separated"));
     // What is passed in front of is lost where it is not by itself.
-    let disoccluded = |name: &str| report.way(name).unwrap().disoccluded;
+    let disoccluded = |name: &str| report.strategy(name).unwrap().disoccluded;
     assert!(disoccluded("second, separated") < disoccluded("second, separated, behind"));
 }
 
 /// The ball takes nothing away of the park: each cell of it comes back, with its own colour.
 #[test]
 fn a_park_is_whole_again_behind_the_ball() {
-    let (one, _) = run("ball", 12, Way::ONE);
+    let (one, _) = run("ball", 12, Strategy::ONE);
     let (layered, pictures) = run("ball", 12, SHIPPED);
     let missing = |report: &RunReport| report.frames.iter().map(|frame| frame.truth.unwrap().missing).sum::<u64>();
     assert!(missing(&one) > 10_000, "{}", missing(&one));
@@ -104,7 +104,7 @@ fn culling_keeps_less_than_half_and_loses_next_to_nothing() {
 #[test]
 fn no_scene_gets_worse_with_what_is_shipped() {
     for (name, frames) in DISOCCLUDED {
-        let (one, _) = run(name, frames, Way::ONE);
+        let (one, _) = run(name, frames, Strategy::ONE);
         let (layered, _) = run(name, frames, SHIPPED);
         let mean = |report: &RunReport, of: fn(&experiment::TruthReport) -> f64| {
             report.frames.iter().map(|frame| of(&frame.truth.unwrap())).sum::<f64>() / f64::from(frames)
@@ -127,9 +127,9 @@ fn an_empty_layer_changes_nothing() {
     let empty = with(&update, |_| Sample { known: Known::ColourOnly, ..Sample::default() });
     let bits = Bits::derive(Request::default().demand(&update, 6)).unwrap();
     let engine = Engine::new(Dynamic::new(bits, Layout::FULL).unwrap(), Settings::for_depth(16));
-    let shown = |beside: &[Beside<'_>]| {
+    let shown = |hidden: &[HiddenLayer<'_>]| {
         let (mut pictures, mut origins) = (Vec::new(), Vec::new());
-        let ran = engine.run_layers(&update, beside, 6, |frame| {
+        let ran = engine.run_layers(&update, hidden, 6, |frame| {
             pictures.push(frame.picture());
             origins.push(frame.origins().collect::<Vec<_>>());
         });
@@ -139,8 +139,8 @@ fn an_empty_layer_changes_nothing() {
     };
     let one = shown(&[]);
     assert!(one.1[6].contains(&NO_ORIGIN));
-    for layers in [1, 2, 3, MAX_BESIDE] {
-        assert!(shown(&vec![Beside::Moving(&empty); layers]) == one, "{layers} empty layers");
+    for layers in [1, 2, 3, MAX_HIDDEN] {
+        assert!(shown(&vec![HiddenLayer::Moving(&empty); layers]) == one, "{layers} empty layers");
     }
 }
 
@@ -151,10 +151,10 @@ fn what_cannot_be_layered_is_refused() {
     let bits = Bits::derive(Request::default().demand(&update, 6)).unwrap();
     let engine = Engine::new(Dynamic::new(bits, Layout::FULL).unwrap(), Settings::for_depth(16));
     let refused =
-        |beside: &[Beside<'_>]| engine.run_layers(&update, beside, 1, |_| panic!("nothing is shown")).unwrap_err();
-    let size = refused(&[Beside::Moving(&update), Beside::Moving(&other)]);
+        |hidden: &[HiddenLayer<'_>]| engine.run_layers(&update, hidden, 1, |_| panic!("nothing is shown")).unwrap_err();
+    let size = refused(&[HiddenLayer::Moving(&update), HiddenLayer::Moving(&other)]);
     assert!(matches!(size, EngineError::LayerSize { width: 256, height: 192, of: [192, 144] }), "{size}");
-    let count = refused(&vec![Beside::Moving(&update); MAX_BESIDE + 1]);
+    let count = refused(&vec![HiddenLayer::Moving(&update); MAX_HIDDEN + 1]);
     assert!(matches!(count, EngineError::TooManyLayers(9)), "{count}");
 }
 
@@ -162,7 +162,7 @@ fn what_cannot_be_layered_is_refused() {
 fn a_capture_without_hidden_samples_says_so() {
     let marbles = concat!(env!("CARGO_MANIFEST_DIR"), "/../captures/marbles");
     let source = Source::open(marbles, &ImportOptions::default()).unwrap();
-    let request = Request { frames: Some(1), way: SHIPPED, ..Request::default() };
+    let request = Request { frames: Some(1), strategy: SHIPPED, ..Request::default() };
     let error = experiment::run(&source, &request, |_| panic!("nothing is shown")).unwrap_err();
     assert!(matches!(error, ExperimentError::NothingHidden { .. }), "{error}");
     let sentence = error.to_string();
@@ -175,11 +175,11 @@ fn a_capture_without_hidden_samples_says_so() {
 fn where_nothing_moves_nothing_hidden_is_shown_or_kept() {
     for arrangement in [Arrangement::Nearer, Arrangement::Farther] {
         for culled in [false, true] {
-            let (report, pictures) = run("still", 3, Way { arrangement, culled, ..SECOND });
+            let (report, pictures) = run("still", 3, Strategy { arrangement, culled, ..SECOND });
             let hidden = report.hidden.unwrap();
             assert_eq!((hidden.used, hidden.kept == 0), (0, culled), "{hidden:?}");
             assert!(hidden.offered > 100);
-            assert_eq!(pictures, run("still", 3, Way::ONE).1);
+            assert_eq!(pictures, run("still", 3, Strategy::ONE).1);
             assert!(report.frames.iter().all(|frame| frame.from_hidden == Some(0)));
         }
     }

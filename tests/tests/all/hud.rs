@@ -7,14 +7,14 @@ use galpix_sim::source::Source;
 use galpix_sim::source::scene;
 use galpix_sim::study::run::{self as experiment, Request};
 use galpix_sim::update::Update;
-use galpix_tests::lent::words;
+use galpix_tests::memory::words;
 use galpix_tests::profiles::dynamic;
 
 /// Every frame's picture, the words of its map, what it counted and what was reached.
 fn run(update: &Update, fill: Fill, mut visit: impl FnMut(u32, galpix_sim::picture::Picture, Vec<u32>, Vec<bool>)) {
     let request = Request { fill, ..Request::default() };
     let format = dynamic(Layout::FULL, Bits::derive(request.demand(update, 24)).unwrap());
-    let settings = Settings { fill_mode: fill.rung(), ..Settings::for_depth(u32::from(format.record().depth().bits)) };
+    let settings = Settings { fill_mode: fill.mode(), ..Settings::for_depth(u32::from(format.record().depth().bits)) };
     let engine = Engine::new(format, settings).inpainting(fill.inpaint());
     engine
         .run(update, 24, |frame| visit(frame.number, frame.picture(), words(frame.map()), frame.reached()))

@@ -1,4 +1,4 @@
-//! Two ways of saying the same give the same bits: a format fixed at compile time and one chosen at run time; a field
+//! Two forms of the same give the same bits: a format fixed at compile time and one chosen at run time; a field
 //! that is absent and one that is fed with zeros.
 
 use fixed::types::I32F32;
@@ -12,7 +12,7 @@ use galpix_tests::layouts::{
     FLAT565_WITHOUT_DEPTH, SHADED_WITHOUT_ACCELERATION, SHADED_WITHOUT_DEPTH_MOTION, SHADED_WITHOUT_LUMINOSITY,
     SHADED_WITHOUT_TAG, VELOCITY565_WITHOUT_VELOCITY,
 };
-use galpix_tests::lent::{
+use galpix_tests::memory::{
     Mode, Run, Shape, Trace, assert_same, cell_words, with_controller, with_maps, with_rolling, words,
 };
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, STRADDLING, UNEVEN, dynamic};
@@ -122,7 +122,7 @@ fn layered<F: Format>(format: F, shape: Shape, content: &[u32], settings: &Setti
     let kind = Kind { winners: true, edges: true, stationary: false };
     let cells = shape.cells() as usize;
     let cell = |cell: usize| content.iter().skip(cell).step_by(cells).copied().collect::<Vec<_>>();
-    // In the layer beside the base everything lies elsewhere.
+    // In the hidden layer everything lies elsewhere.
     let (base, layer) = ((0..cells).map(cell), (0..cells).rev().map(cell));
     let hidden = Kind { edges: false, stationary: cells % 2 == 1, ..kind };
     with_layers(shape, format, &[(kind, base.collect()), (hidden, layer.collect())], |layers| {
@@ -224,7 +224,7 @@ struct Absent {
     less: Layout,
     /// Makes the field zero.
     zero: fn(&mut Galpixel),
-    /// Takes out what no map without the field can tell.
+    /// Removes what a map without the field cannot hold.
     forget: fn(&mut Galpixel),
 }
 
@@ -300,7 +300,7 @@ fn an_absent_luminosity_rate_is_none() {
     absent.is_zero();
 }
 
-/// Debris without motion is stored as far away as can be, which only a map with a depth can tell.
+/// Debris without motion is stored as far away as can be, which only a map with a depth can hold.
 #[test]
 fn an_absent_depth_is_0_everywhere() {
     let absent = Absent {

@@ -16,7 +16,7 @@ use wire::{Received, crc32, encoded, line, receive};
 
 const OLED: u32 = Oled::DESCRIPTION.fingerprint;
 
-/// A frame of galpixels over these words.
+/// Returns a frame of galpixels over these words.
 fn galpixels(words: &[u8]) -> Frame<'_> {
     Frame::Galpixels(Galpixels { update: 7, stamp: 0x0102_0304, fingerprint: OLED, y: 63, x: 72, words })
 }
@@ -182,7 +182,7 @@ fn lost(received: &[Received], frame: &[u8], neighbours: &[Vec<u8>; 2], place: &
     assert_eq!(received.last(), Some(&Ok(neighbours[1].clone())), "{place}");
     let accepted: Vec<_> =
         received[1..received.len() - 1].iter().filter_map(|received| received.as_ref().ok()).collect();
-    assert!(accepted.iter().all(|accepted| *accepted == frame), "{place}: a frame that nobody sent: {accepted:02x?}");
+    assert!(accepted.iter().all(|accepted| *accepted == frame), "{place}: a frame that was not sent: {accepted:02x?}");
     assert!(accepted.len() <= 3, "{place}");
     3 - accepted.len()
 }
@@ -229,7 +229,7 @@ fn a_lost_or_added_byte_costs_two_frames_at_most() {
             longer.insert(at, generator.random());
             let added = longer[at];
             let cost = lost(&receive(&longer), &frame, &neighbours, &format!("{added:02x} before byte {at}"));
-            // A 0 beside the 0 of a frame ends no frame.
+            // A 0 next to the 0 of a frame ends no frame.
             let nothing = added == 0 && (at == start || at == start + frame.len() - 1);
             assert_eq!(cost, usize::from(!nothing), "{added:02x} before byte {at}");
         }

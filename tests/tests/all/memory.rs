@@ -1,4 +1,4 @@
-//! The memory that a budget promises is the memory that is lent, and every setup that cannot be is refused with a
+//! The memory that a budget promises is the memory that is needed, and every setup that cannot be is refused with a
 //! sentence.
 
 use fixed::types::I32F32;
@@ -138,7 +138,7 @@ fn stored_is_loaded(layout: Layout, bits: Bits) {
     let range = f64::from(1u32 << bits.depth_int);
     let components = [bits.x, bits.y, bits.z];
     for n in -20..=20 {
-        // In cells a frame, or bins of depth a frame; the depth is handed over as a part of its range.
+        // In cells per frame, or bins of depth per frame; the depth is handed over as a part of its range.
         let velocity = components.map(|component| f64::from(n) * 0.77 * unit(component.velocity_frac));
         let acceleration = components.map(|component| f64::from(n) * 0.61 * unit(component.acceleration_frac));
         let handed = |[x, y, z]: [f64; 3]| [x, y, z / range].map(I32F32::from_num);
@@ -157,7 +157,7 @@ fn stored_is_loaded(layout: Layout, bits: Bits) {
                 ("velocity", back.velocity[i], velocity[i], component.velocity_frac),
                 ("acceleration", back.acceleration[i], acceleration[i], component.acceleration_frac),
             ] {
-                // Beside the budget's last bit there is the last bit of the number that was handed over.
+                // Off by half of the budget's last bit, and by the last bit of the number handed over.
                 let most = unit(frac + 1) + 2.0 * unit(32) * scale;
                 let back = back.to_num::<f64>() * scale;
                 assert!((back - written).abs() <= most, "{name} {i} of {bits:?}: {written} became {back}");
@@ -235,7 +235,7 @@ fn controllers_that_cannot_work_are_refused() {
     assert_eq!(stages::words(&grid), 2);
 }
 
-/// Every refusal is one sentence: what is wrong, its numbers, and after a colon how to mend it.
+/// Every refusal is one sentence: what is wrong, its numbers, and after a colon how to correct it.
 #[test]
 fn every_refusal_says_what_is_wrong_and_how_to_mend_it() {
     let base = Demand { extent: 1024, recog: 8, prop: 16 };
@@ -274,7 +274,7 @@ fn every_refusal_says_what_is_wrong_and_how_to_mend_it() {
         sentences.push((error.to_string(), detail));
     }
     for (error, detail) in [
-        (SetupError::TooShort { plane: "edge map", need: 12, have: 7 }, "edge map needs 12 words and 7 were lent"),
+        (SetupError::TooShort { plane: "edge map", need: 12, have: 7 }, "edge map needs 12 words and 7 were provided"),
         (SetupError::Size { width: 0, height: 9 }, "0x9"),
         (SetupError::GridsDiffer, "same one"),
         (SetupError::NoTag, "tag bits"),

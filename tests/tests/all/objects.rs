@@ -9,7 +9,7 @@ use galpix_core::{
     Class, Controller, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings,
     SetupError, stages,
 };
-use galpix_tests::lent::{Shape, cell_words, with_controller, with_maps, words};
+use galpix_tests::memory::{Shape, cell_words, with_controller, with_maps, words};
 use galpix_tests::packed;
 use galpix_tests::profiles::{ODD, PAPER, SCENE, dynamic};
 use galpix_tests::random::{below, generator};
@@ -20,7 +20,8 @@ use rand::Rng;
 const SHAPE: Shape = Shape::new(9, 6, [1, 2, 0, 1]);
 const CELLS: u32 = SHAPE.cells();
 
-/// A random galpixel: of four depths, so that keys are often equal, four tags, and slow enough to stay for a while.
+/// Returns a random galpixel: of four depths, so that keys are often equal, four tags, and slow enough to stay for a
+/// while.
 fn random_galpixel(random: &mut impl Rng) -> Galpixel {
     let mut slow = || number(f64::from(below(random, 17)) / 8.0 - 1.0);
     let (velocity, acceleration) = ([slow(), slow(), number(0.0)], [slow() / 8, slow() / 8, number(0.0)]);
@@ -50,7 +51,7 @@ struct Slowly {
 }
 
 impl Slowly {
-    /// Where a galpixel is after the frames from `stamp` to `now`, if the map still has it.
+    /// Returns where a galpixel is after the frames from `stamp` to `now`, if the map still has it.
     fn alone(&self, cell: u32, galpixel: &[u32], stamp: u32) -> Option<(u32, Vec<u32>)> {
         let (mut cell, mut galpixel, mut frame) = (cell, galpixel.to_vec(), stamp);
         while frame != self.now {
@@ -83,7 +84,7 @@ impl Slowly {
                 tally.removed += 1;
             }
         }
-        let mut claims: Vec<Vec<Vec<u32>>> = vec![Vec::new(); map.len()];
+        let mut candidates: Vec<Vec<Vec<u32>>> = vec![Vec::new(); map.len()];
         for (index, galpixel) in (0..).zip(given.chunks(record.words())) {
             let mut galpixel = galpixel.to_vec();
             packed::set(record.tag(), &mut galpixel, i64::from(object.tag));
@@ -94,27 +95,27 @@ impl Slowly {
             let (x, y) = (object.place[0] + index % object.size[0], object.place[1] + index / object.size[0]);
             let cell = y * SHAPE.columns() + x;
             match self.alone(cell, &galpixel, object.stamp) {
-                Some((cell, galpixel)) => claims[cell as usize].push(galpixel),
+                Some((cell, galpixel)) => candidates[cell as usize].push(galpixel),
                 None => tally.lost += 1,
             }
         }
-        for (held, claims) in map.iter_mut().zip(claims) {
+        for (held, candidates) in map.iter_mut().zip(candidates) {
             let key = |words: &[u32]| (class(words), packed::unsigned(record.depth(), words));
             let incumbent = held.clone();
             // `min_by_key` gives the first of equals.
-            let all = std::iter::once(&incumbent).filter(|words| class(words) != 3).chain(&claims);
+            let all = std::iter::once(&incumbent).filter(|words| class(words) != 3).chain(&candidates);
             let Some(best) = all.min_by_key(|words| key(words)) else { continue };
             let new = !std::ptr::eq(best, &raw const incumbent);
             tally.put += u32::from(new);
             tally.replaced += u32::from(new && class(&incumbent) != 3);
-            tally.behind += claims.len() as u32 - u32::from(new);
+            tally.behind += candidates.len() as u32 - u32::from(new);
             held.clone_from(best);
         }
         tally
     }
 }
 
-/// A random rendering within the map: rectangle, layer 0, words.
+/// Returns a random rendering within the map: rectangle, layer 0, words.
 fn random_object(map: &Galpixmap<'_, Dynamic>, random: &mut impl Rng, now: u32, late: u32) -> (Object, Vec<u32>) {
     let place = [below(random, SHAPE.columns()), below(random, SHAPE.rows())];
     let size = [below(random, SHAPE.columns() - place[0] + 1), below(random, SHAPE.rows() - place[1] + 1)];
@@ -346,7 +347,7 @@ fn a_queue_says_what_it_needs() {
 }
 
 /// A ball passes behind a pillar and in front of a wall, three layers. While it is covered it is rendered anew: faster,
-/// and of other colours. Nobody else notices, and it reappears where it should be by then.
+/// and of other colours. Nothing else changes, and it reappears where it should be by then.
 #[test]
 fn an_object_that_is_covered_is_replaced_in_its_own_layer() {
     const WIDTH: u32 = 48;
@@ -358,10 +359,11 @@ fn an_object_that_is_covered_is_replaced_in_its_own_layer() {
     let [m0, m1, m2, m3, m4, m5, m6, m7, m8] = memory.as_mut_slice() else { unreachable!() };
     let map = |memory| Galpixmap::new(grid, format, memory).unwrap();
     let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; stages::words(&grid)]);
-    let (mut seats, mut displacements) = (vec![vec![0; composite_words(&grid)]; 3], vec![0; grid.cells() as usize]);
-    let [s1, s2, s3] = seats.as_mut_slice() else { unreachable!() };
+    let (mut composited, mut displacements) =
+        (vec![vec![0; composite_words(&grid)]; 3], vec![0; grid.cells() as usize]);
+    let [s1, s2, s3] = composited.as_mut_slice() else { unreachable!() };
     let base = Controller::new(map(m0), map(m1), Scratch { winners: &mut winners, edges: &mut edges }).unwrap();
-    let moving = |front, back, seats| Layer::new(front, back, Scratch::default(), seats).unwrap();
+    let moving = |front, back, composited| Layer::new(front, back, Scratch::default(), composited).unwrap();
     let stationary = Layer::stationary(
         Stationary { stored: map(m6), displacements: &mut displacements },
         map(m7),

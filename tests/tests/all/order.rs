@@ -3,10 +3,10 @@
 use galpix_core::stages::sweep;
 use galpix_core::{Class, Dynamic, Format, Galpixmap, Layout, Margin, Rounding, Tally};
 use galpix_tests::layouts::{DEEP, FLAT565_WITHOUT_DEPTH, TINY_PLANE};
-use galpix_tests::lent::{Shape, cell_words, with_maps, words};
+use galpix_tests::memory::{Shape, cell_words, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, UNEVEN, dynamic};
 use galpix_tests::{packed, random, stage};
-use galpix_vectors::arrivals::{Arrival, arrivals, settle};
+use galpix_vectors::arrivals::{Arrival, arrivals, resolve};
 
 type Reorder = fn(&mut Vec<Arrival>);
 
@@ -36,16 +36,16 @@ fn check(
     let cells = front.grid().cells();
     let raster: Vec<Arrival> = arrivals(front, rounding, frame);
     let mut winners = vec![0; cells as usize];
-    let tally = settle(raster.clone(), back, &mut winners);
-    let (settled, won) = (words(back), winners.clone());
+    let tally = resolve(raster.clone(), back, &mut winners);
+    let (resolved, won) = (words(back), winners.clone());
     let reached: Vec<Option<Vec<u32>>> =
         (0..cells).map(|cell| (back.class(cell) != Class::Empty).then(|| cell_words(back, cell))).collect();
     for (name, order) in ORDERS {
         let mut ordered = raster.clone();
         order(&mut ordered);
         assert_eq!(ordered.len(), raster.len());
-        assert_eq!(settle(ordered, back, &mut winners), tally, "{what}: tally of {name} order");
-        assert!(words(back) == settled, "{what}: {name} order gives other bits");
+        assert_eq!(resolve(ordered, back, &mut winners), tally, "{what}: tally of {name} order");
+        assert!(words(back) == resolved, "{what}: {name} order gives other bits");
         assert!(winners == won, "{what}: {name} order gives other winners");
     }
     let swept = sweep(front, back, &mut winners, rounding, frame);
@@ -54,13 +54,13 @@ fn check(
         match expected {
             Some(words) => {
                 assert_eq!(&cell_words(back, cell), words, "{}", at());
-                assert_eq!(winners[cell as usize], won[cell as usize], "{}: swept and settled winner", at());
+                assert_eq!(winners[cell as usize], won[cell as usize], "{}: swept and resolved winner", at());
             }
             // The other fields of a cell that nothing reached, and its winner, are not defined before the fill.
             None => assert_eq!(back.class(cell), Class::Empty, "{}", at()),
         }
     }
-    assert_eq!(swept, tally, "{what}: swept tally and settled tally");
+    assert_eq!(swept, tally, "{what}: swept tally and resolved tally");
     let without_winners = sweep(front, back, &mut [], rounding, frame);
     assert_eq!(without_winners, tally, "{what}: a winner map changes nothing");
     for (cell, expected) in (0..cells).zip(&reached) {
@@ -81,7 +81,7 @@ const SHAPES: [Shape; 9] = [
     Shape { width: 16, height: 3, margin: Margin { left: 20, right: 1, top: 0, bottom: 9 } },
 ];
 
-/// Maps of random words.
+/// Returns maps of random words.
 fn any_words(format: Dynamic) -> Tally {
     let mut total = Tally::default();
     for (seed, shape) in (0..).zip(SHAPES.into_iter().cycle().take(3 * SHAPES.len())) {
@@ -113,8 +113,9 @@ fn sum(a: Tally, b: Tally) -> Tally {
     }
 }
 
-/// Maps that are hard on a pass that treats neighbours at once: galpixels that mostly move alike by a few cells, with
-/// few different depths, a hole or a piece of debris here and there, and every pattern of two ways within a run.
+/// Returns maps that are hard on a pass that treats neighbours at once: galpixels that mostly move alike by a few
+/// cells, with few different depths, a hole or a piece of debris here and there, and every pattern of two velocities
+/// within a run.
 fn nearly_alike(format: Dynamic, depth_levels: u32) -> Tally {
     let record = format.record();
     let mut total = Tally::default();
@@ -124,7 +125,7 @@ fn nearly_alike(format: Dynamic, depth_levels: u32) -> Tally {
         let shape = SHAPES[2 + below(7) as usize];
         let (cells, oddities) = (shape.cells(), [0, 0, 5, 30][below(4) as usize]);
         let reach = 1 + below(3) as i64;
-        let ways: Vec<[i64; 2]> =
+        let velocities: Vec<[i64; 2]> =
             (0..2).map(|_| [0, 0].map(|_| i64::from(below(2 * reach as u32 + 1)) - reach)).collect();
         let period = 1 + below(12);
         let mut content = vec![0; cells as usize * record.words()];
@@ -135,9 +136,10 @@ fn nearly_alike(format: Dynamic, depth_levels: u32) -> Tally {
             packed::set(record.depth(), &mut words, below(depth_levels).into());
             packed::set(record.colour(), &mut words, cell.into());
             packed::set(record.tag(), &mut words, cell.into());
-            let way = if period > 8 { ways[below(2) as usize] } else { ways[(cell / period % 2) as usize] };
+            let velocity =
+                if period > 8 { velocities[below(2) as usize] } else { velocities[(cell / period % 2) as usize] };
             for (component, scale) in record.scales[..2].iter().enumerate() {
-                packed::set(record.velocity(component), &mut words, way[component] << scale.velocity_frac);
+                packed::set(record.velocity(component), &mut words, velocity[component] << scale.velocity_frac);
             }
             for (plane, word) in words.into_iter().enumerate() {
                 content[plane * cells as usize + cell as usize] = word;
@@ -177,7 +179,7 @@ fn neighbours_that_move_nearly_alike() {
     }
 }
 
-/// Two ways that alternate within a run and meet in one cell at one depth: the smaller source wins.
+/// Two velocities that alternate within a run and meet in one cell at one depth: the smaller source wins.
 #[test]
 fn ties_between_the_ways_of_a_run_go_to_the_smaller_source() {
     let format = dynamic(Layout::VELOCITY565, SLIDE);
@@ -208,7 +210,7 @@ fn the_built_in_scenes() {
                 check(&what, &front, &mut back, Rounding::LowDiscrepancy, frame);
                 // Holes stay holes here: what the fill makes of them is another test's.
                 let mut winners = vec![0; stage.shape.cells() as usize];
-                settle(arrivals(&front, Rounding::LowDiscrepancy, frame), &mut back, &mut winners);
+                resolve(arrivals(&front, Rounding::LowDiscrepancy, frame), &mut back, &mut winners);
                 std::mem::swap(&mut front, &mut back);
             }
         });

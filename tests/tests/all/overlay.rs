@@ -14,7 +14,7 @@ use embedded_graphics::text::Text;
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::scan_out::{self, PanelColour, View};
 use galpix_core::{Bits, Class, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin, SetupError};
-use galpix_tests::lent::{Shape, with_maps, words};
+use galpix_tests::memory::{Shape, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic, formats};
 
 /// A map of distinct colours, and an overlay of the given size and place with every third cell pinned.
@@ -74,7 +74,7 @@ const SHAPES: [Shape; 3] = [
 /// Margins of an overlay's grid.
 const MARGINS: [Margin; 2] = [Margin::NONE, Margin { left: 1, right: 2, top: 3, bottom: 1 }];
 
-/// Overlays of the display's size, a bar, one that reaches beyond the display, and one that lies outside.
+/// Returns overlays of the display's size, a bar, one that reaches beyond the display, and one that lies outside.
 fn places(shape: Shape) -> [[u32; 4]; 5] {
     let (width, height) = (shape.width, shape.height);
     [
@@ -221,7 +221,7 @@ fn text_and_lines_are_pinned() {
     assert!(pinned > 30, "{pinned} cells");
 }
 
-/// Every class and depth loses against what is pinned, and too little memory is said.
+/// Every class and depth loses against what is pinned, and too little memory is refused.
 #[test]
 fn nothing_is_in_front_of_the_overlay() {
     with_maps(Shape::plain(4, 1), dynamic(Layout::FULL, PAPER), None, |mut map, _| {

@@ -3,12 +3,12 @@
 use galpix_core::stages::{mark, on_edge, threshold_for_depth, words};
 use galpix_core::{Class, FillMode, Galpixel, Margin, Settings, Tally};
 use galpix_tests::art::{Art, Drawing, Panel, format, with_drawing};
-use galpix_tests::lent::{Shape, with_controller, with_maps};
+use galpix_tests::memory::{Shape, with_controller, with_maps};
 use galpix_tests::stage::number;
 
 use Panel::{Class as Classes, Colour, Depth, Motion, Shown};
 
-fn with_rung(fill_mode: FillMode) -> Settings {
+fn with_fill_mode(fill_mode: FillMode) -> Settings {
     Settings { fill_mode, ..Settings::for_depth(20) }
 }
 
@@ -17,7 +17,7 @@ fn frames(fill_mode: FillMode, panels: &[Panel], before: &[&str], after: &[&[&st
     with_drawing(before, |controller| {
         let mut tally = Tally::default();
         for (number, expected) in (1..).zip(after) {
-            tally = controller.step(&with_rung(fill_mode));
+            tally = controller.step(&with_fill_mode(fill_mode));
             Art::of(controller.front(), panels).assert(&format!("{fill_mode:?}, frame {number}"), expected);
         }
         tally
@@ -59,7 +59,7 @@ fn what_leaves_over_the_border_is_lost() {
 }
 
 #[test]
-fn what_waits_in_the_wings_comes_in() {
+fn what_waits_in_the_margin_comes_in() {
     let drawing = Drawing(&["AB.....  44.....  }}.....", "..C...D  ..4...4  ..<...<"]);
     let shape = Shape { width: 3, height: 1, margin: Margin { left: 2, right: 2, top: 0, bottom: 1 } };
     with_controller(shape, format(), None, |controller| {
@@ -77,7 +77,7 @@ fn what_waits_in_the_wings_comes_in() {
             // B has left over the border, A is in the margin.
             (["......A", "...D..."], "..."),
         ] {
-            controller.step(&with_rung(FillMode::None));
+            controller.step(&with_fill_mode(FillMode::None));
             Art::of(controller.front(), &[Colour]).assert("in the margin and out of them", &picture);
             shown(controller.front(), display);
         }
@@ -92,7 +92,7 @@ fn bullet_holes_of_a_zoom_are_filled_with_the_mean_of_their_neighbours() {
     let after: &[&str] = &["AABCC.  44444.  --)>>.", "AABCC.  44444.  --)>>.", "AABCC.  44444.  --)>>."];
     let before_edges_matter = frames(FillMode::None, &[Colour], before, &[&["AA.CC.", "AA.CC.", "AA.CC."]]);
     assert_eq!(before_edges_matter.bullets, 0);
-    // The last column of C is beside a hole, and so on an edge; A and the first C are inside.
+    // The last column of C is next to a hole, and so on an edge; A and the first C are inside.
     let tally = frames(FillMode::Bullet, &[Colour, Depth, Motion], before, &[after]);
     assert_eq!((tally.bullets, tally.holes, tally.empty), (3, 6, 3));
 }
@@ -108,7 +108,7 @@ fn a_crack_is_closed_from_both_sides_round_by_round() {
         [(1, "AAAAacCCCC  ####!!####"), (2, "AAAAACCCCC  ##########"), (16, "AAAAACCCCC  ##########")]
     {
         with_drawing(wide, |controller| {
-            controller.step(&Settings { reach, ..with_rung(FillMode::Bullet) });
+            controller.step(&Settings { reach, ..with_fill_mode(FillMode::Bullet) });
             Art::of(controller.front(), &[Colour, Classes]).assert(&format!("{reach} rounds"), &[expected]);
         });
     }
@@ -125,7 +125,7 @@ fn no_hole_is_left_inside_of_a_surface_that_is_magnified() {
             let galpixel = Galpixel { colour: [80; 3], depth: number(0.5), velocity, ..Galpixel::default() };
             controller.front_mut().store(x, y, &galpixel);
         }
-        let tally = controller.step(&with_rung(FillMode::Bullet));
+        let tally = controller.step(&with_fill_mode(FillMode::Bullet));
         assert!(tally.bullets > 100, "{tally:?}");
         let covered = 15;
         for (x, y) in (0..covered).flat_map(|y| (0..covered).map(move |x| (x, y))) {
@@ -168,7 +168,7 @@ fn a_just_unobscured_square_is_debris_from_its_corner_inwards() {
         assert_eq!((tally.bullets, tally.filled(), tally.collided), (0, 6, 6), "{fill_mode:?}");
         // More rounds of bullet filling do not eat into it.
         with_drawing(before, |controller| {
-            controller.step(&Settings { reach: 16, ..with_rung(fill_mode) });
+            controller.step(&Settings { reach: 16, ..with_fill_mode(fill_mode) });
             Art::of(controller.front(), &[Colour, Classes, Shown]).assert("16 rounds", after);
         });
     }
@@ -233,7 +233,7 @@ fn what_extend_continued_loses_against_a_galpixel_however_near_it_is() {
     assert_eq!((tally.collided, tally.lost), (1, 0));
 }
 
-/// What was never known is no surface, on either side: with nothing beside it, a cell is as galdebris leaves it.
+/// What was never known is no surface, on either side: with nothing next to it, a cell is as galdebris leaves it.
 #[test]
 fn extend_does_not_continue_what_was_never_known() {
     let panels = &[Colour, Classes, Depth, Motion];
@@ -260,7 +260,7 @@ fn a_cell_of_which_nothing_was_ever_known_keeps_its_colour() {
             let colour_only = Galpixel { class: Class::Empty, colour: [24; 3], ..Galpixel::default() };
             controller.front_mut().store(4, 0, &colour_only).unwrap();
             Art::of(controller.front(), &[Classes, Shown]).assert("before", &["##....  AB__C_"]);
-            let tally = controller.step(&with_rung(fill_mode));
+            let tally = controller.step(&with_fill_mode(fill_mode));
             let row = match fill_mode {
                 // Holes are shown black.
                 FillMode::None => "#..#..  A__B__",

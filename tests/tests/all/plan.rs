@@ -28,7 +28,7 @@ fn check(planning: &Planning) {
         assert!(plan.measured.frame_us > 0.0 && !plan.reasons.is_empty(), "{at}");
     }
     if let Some(tighter) = &planning.tighter {
-        // Depth and rung are what the pictures need: only the plane is sure to need no less.
+        // Depth and fill mode are what the pictures need: only the plane is sure to need no less.
         assert!(tighter.motion.velocity >= planning.plan.motion.velocity, "{name}");
         assert!(tighter.motion.certified_px <= tighter.max_error_px, "{name}");
     }
@@ -53,7 +53,7 @@ fn a_still_scene_plans_to_nothing_but_colour() {
     let planning = planned(&Source::Scene(scene::find("still").unwrap()), 0.5);
     let plan = &planning.plan;
     assert!(!plan.motion.velocity && !plan.motion.acceleration && !plan.depth_motion && !plan.luminosity);
-    assert_eq!((plan.depth_bits, plan.rung, plan.used_bits_per_galpixel), (0, "none", 26));
+    assert_eq!((plan.depth_bits, plan.fill_mode, plan.used_bits_per_galpixel), (0, "none", 26));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn the_printed_code_compiles_and_is_the_plan() {
     assert_eq!(plan.code.trim(), kept.trim(), "copy what is printed over tests/tests/all/plan/pan.rs");
     assert_eq!(Static::<printed::PlannedPan>::RECORD.bytes(), plan.stored_bytes_per_galpixel);
     let settings = printed::SETTINGS;
-    assert_eq!((settings.fill_mode.name(), settings.rounding.name()), (plan.rung, plan.motion.rounding));
+    assert_eq!((settings.fill_mode.name(), settings.rounding.name()), (plan.fill_mode, plan.motion.rounding));
 }
 
 #[test]

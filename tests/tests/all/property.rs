@@ -3,7 +3,7 @@
 use fixed::types::I32F32;
 use galpix_core::stages::FILLED;
 use galpix_core::{Class, Controller, Dynamic, FillMode, Format, Galpixel, Layout, Rounding, Settings, Tally};
-use galpix_tests::lent::{Mode, Run, Shape, Trace, with_controller, words};
+use galpix_tests::memory::{Mode, Run, Shape, Trace, with_controller, words};
 use galpix_tests::profiles::{PAPER, dynamic, formats};
 use galpix_tests::{packed, random};
 use proptest::prelude::*;
@@ -35,7 +35,7 @@ fn modes() -> impl Strategy<Value = Mode> {
     prop::sample::select(&Mode::ALL[..])
 }
 
-/// Random words, or words with few empty cells and slow motion, so that much happens on the map.
+/// Returns random words, or words with few empty cells and slow motion, so that much happens on the map.
 fn content(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
     let record = format.record();
     let cells = shape.cells() as usize;
@@ -67,11 +67,11 @@ fn check_frame(controller: &Controller<'_, Dynamic>, before: &[Class], tally: Ta
     let classes: Vec<Class> = (0..cells).map(|cell| front.class(cell)).collect();
     let count = |wanted: Class| classes.iter().filter(|&&class| class == wanted).count() as u32;
     let winners = controller.winners();
-    let settled = winners.iter().filter(|&&winner| winner < FILLED).count() as u32;
+    let resolved = winners.iter().filter(|&&winner| winner < FILLED).count() as u32;
 
     assert_eq!(tally.moved, before.iter().filter(|&&class| class != Class::Empty).count() as u32, "{settings:?}");
-    assert_eq!(tally.moved, settled + tally.lost + tally.collided, "{settings:?} {tally:?}");
-    assert_eq!(cells, settled + tally.holes, "{settings:?} {tally:?}");
+    assert_eq!(tally.moved, resolved + tally.lost + tally.collided, "{settings:?} {tally:?}");
+    assert_eq!(cells, resolved + tally.holes, "{settings:?} {tally:?}");
     assert_eq!(tally.holes, tally.bullets + tally.debris + tally.galdebris + tally.empty, "{settings:?} {tally:?}");
     assert_eq!(tally.filled() + tally.empty, tally.holes);
     assert_eq!(count(Class::Empty), tally.empty, "{settings:?} {tally:?}");

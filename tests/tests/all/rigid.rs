@@ -4,7 +4,7 @@ use fixed::types::I32F32;
 use galpix_core::record::Scale;
 use galpix_core::stages::{snap, step_position};
 use galpix_core::{Bits, Class, Demand, Dynamic, FillMode, Format, Galpixel, Layout, Rounding, Settings};
-use galpix_tests::lent::{Shape, with_controller};
+use galpix_tests::memory::{Shape, with_controller};
 use galpix_tests::profiles::dynamic;
 use galpix_tests::random;
 
@@ -15,7 +15,7 @@ fn format() -> Dynamic {
     dynamic(Layout::FULL, Bits::derive(Demand { extent: 256, recog: 8, prop: FRAMES }).unwrap())
 }
 
-/// A number of any of 2^12 parts of a range of `width` around 0.
+/// Returns a number of any of 2^12 parts of a range of `width` around 0.
 fn drawn(generator: &mut impl rand::Rng, width: f64) -> I32F32 {
     I32F32::from_num((f64::from(random::below(generator, 4096)) / 4096.0 - 0.5) * width)
 }

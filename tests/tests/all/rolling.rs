@@ -7,14 +7,14 @@ use galpix_core::{
     Bits, Demand, Dynamic, Format, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings, SetupError, Tally,
 };
 use galpix_tests::layouts::TINY_PLANE;
-use galpix_tests::lent::{Run, Shape, with_rolling, words};
+use galpix_tests::memory::{Run, Shape, with_rolling, words};
 use galpix_tests::profiles::{SCENE, SLIDE, dynamic, formats};
 use galpix_tests::random;
 use galpix_tests::stage::{self, settings_in_turn};
 
 const FRAMES: u32 = 6;
 
-/// Tally and planes of each of some frames, in one map and a window of `rows` rows.
+/// Returns the tally and planes of each of some frames, in one map and a window of `rows` rows.
 fn rolled(shape: Shape, format: Dynamic, content: &[u32], settings: &Settings, rows: u32) -> Vec<(Tally, Vec<u32>)> {
     with_rolling(shape, format, content, rows, |rolling| {
         (0..FRAMES).map(|_| (rolling.step(settings), words(rolling.map()))).collect()
@@ -41,7 +41,7 @@ const SLOW: Bits = {
     SCENE.with_xy(SCENE.x, y)
 };
 
-/// The formats of the tables, and a slow one.
+/// Returns the formats of the tables, and a slow one.
 fn all_formats() -> impl Iterator<Item = (&'static str, Dynamic)> {
     formats().chain([("slow galpixels", dynamic(Layout::SHADED, SLOW))])
 }
@@ -64,7 +64,7 @@ fn one_map_is_two_on_random_words() {
         for (seed, shape) in (0..).zip(shapes) {
             let content = random::words(seed, shape.cells() as usize * format.record().words());
             for settings in settings_in_turn(seed as usize, format.record().depth().bits) {
-                assert_same(shape, format, &content, &settings, &format!("{name}, rubbish, {shape:?}"));
+                assert_same(shape, format, &content, &settings, &format!("{name}, arbitrary words, {shape:?}"));
             }
         }
     }

@@ -13,7 +13,7 @@ use galpix_core::overlay::Overlay;
 use galpix_core::scan_out::{self, Over, PanelColour, View};
 use galpix_core::sub_cell::{self, SubCell};
 use galpix_core::{Bits, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin};
-use galpix_tests::lent::{Shape, with_maps};
+use galpix_tests::memory::{Shape, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
 use galpix_tests::random;
 
@@ -69,7 +69,7 @@ const SHAPES: [Shape; 4] = [
     Shape { width: 5, height: 4, margin: Margin::all(6) },
 ];
 
-/// A colour that tells its place in the display; what is in the margin is `[255, 0, 255]`.
+/// Returns a colour that identifies its place in the display; what is in the margin is `[255, 0, 255]`.
 fn colour(shape: Shape, x: i32, y: i32) -> [u8; 3] {
     let (x, y) = (x - shape.margin.left as i32, y - shape.margin.top as i32);
     if (0..shape.width as i32).contains(&x) && (0..shape.height as i32).contains(&y) {
@@ -88,7 +88,7 @@ fn with_view(format: Dynamic, shape: Shape, work: impl Fn(&Galpixmap<'_, Dynamic
     });
 }
 
-/// The pixel at a place of the display, of a map whose colours have the format `stored`.
+/// Returns the pixel at a place of the display, of a map whose colours have the format `stored`.
 fn expected<C: PanelColour>(stored: Colour, shape: Shape, x: u32, y: u32) -> C {
     let (x, y) = ((x + shape.margin.left) as i32, (y + shape.margin.top) as i32);
     let word = stored.from_rgb888(colour(shape, x, y));

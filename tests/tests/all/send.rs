@@ -30,12 +30,12 @@ fn scene_source(name: &str) -> Source {
     Source::open(name, &ImportOptions::default()).unwrap()
 }
 
-/// A scene on a panel, as the first update.
+/// Returns a scene on a panel, as the first update.
 fn scene_on<P: Panel>(name: &str, time: u32) -> Vec<Galpixel> {
     tagged::<P>(name, time, 0)
 }
 
-/// The same as update number `tag`.
+/// Returns the same as update number `tag`.
 fn tagged<P: Panel>(name: &str, time: u32, tag: u32) -> Vec<Galpixel> {
     let galpixels = fit::scene(scene::find(name).unwrap(), f64::from(time), P::WIDTH.into(), P::HEIGHT.into());
     galpixels.into_iter().map(|galpixel| Galpixel { tag, ..galpixel }).collect()
@@ -75,7 +75,7 @@ fn every_galpixel_of_a_scene_arrives() {
     let (report, device) = over_tcp(&scene_source("drift"), &ONE, Device::new::<Oled>(), no_noise);
     let report = report.unwrap();
     assert!(device.memory == memory::<Oled>(&scene_on::<Oled>("drift", 0)), "another map");
-    // 128 galpixels a row, 56 in a frame at most; the device's counter stood at 1003 when it was asked.
+    // 128 galpixels per row, 56 in a frame at most; the device's counter stood at 1003 at the request.
     assert_eq!((report.panel, report.frames, report.bytes), ("oled", 3 * 64, 3 * 64 * 21 + 64 * 128 * 4 + 6 * 8));
     assert_eq!(report.updates.len(), 1);
     assert_eq!((report.updates[0].stamp, report.updates[0].time, report.updates[0].galpixels), (1003, 0, 8192));
@@ -102,7 +102,7 @@ fn a_tenth_of_the_frames_is_corrupted_and_the_rest_is_right() {
     let mut generator = random::generator(5);
     let (mut corrupted, mut lost) = (0, Vec::new());
     let noise = |count: usize, frame: &mut Vec<u8>| {
-        // Not the first question: it would be asked again.
+        // Not the first request: it would be repeated.
         if count % 10 == 5 {
             let mut decoder = Decoder::new();
             let whole: Vec<u8> = frame.iter().copied().chain([0]).collect();
@@ -219,12 +219,12 @@ fn devices_that_cannot_be_served_are_refused_in_a_sentence() {
 
 #[test]
 fn a_line_without_a_device_is_told() {
-    // Somebody listens, and says nothing.
+    // Something listens, and does not answer.
     let (listener, address) = port();
     let error = sent(&scene_source("still"), &ONE, &address).unwrap_err();
     assert!(error.unusable() && error.to_string().contains("did not answer a Hello within 2 s"), "{error}");
     drop(listener);
-    // Nobody listens.
+    // Nothing listens.
     let Err(error) = address.open(None) else { panic!("{address} is reached") };
     assert!(error.to_string().contains("cannot be reached"), "{error}");
     // Somebody hangs up.
@@ -262,7 +262,7 @@ fn a_file_keeps_the_stream() {
     assert_eq!(device.stamps.len(), 2 * 192);
 }
 
-/// A line whose answers nobody hears.
+/// A line whose answers are lost.
 struct ReadOnly<R>(R);
 
 impl<R: std::io::Read> std::io::Read for ReadOnly<R> {

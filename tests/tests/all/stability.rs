@@ -6,7 +6,7 @@ use galpix_sim::study::stability::causes::follow;
 use galpix_sim::study::stability::mover::Strip;
 use galpix_sim::study::stability::verdict::Verdict;
 use galpix_sim::study::stability::{self, ALL, Px, Request, Setting};
-use galpix_tests::lent::{Shape, with_controller};
+use galpix_tests::memory::{Shape, with_controller};
 
 const PAPER: Demand = Demand { extent: 1024, recog: 8, prop: 16 };
 

@@ -1,4 +1,5 @@
-//! Error against run time: the certificate over all lanes and steps of the format, and floats beside the engine.
+//! Error against run time: the certificate over all fields and steps of the format, and floats compared with the
+//! engine.
 
 use std::path::Path;
 
@@ -33,7 +34,7 @@ struct Checked {
     reached: f64,
 }
 
-/// Holds a source against the certificate, in lanes and steps of the budget that other tests do not run.
+/// Holds a source against the certificate, in fields and steps of the budget that other tests do not run.
 fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) {
     let mut reference = Reference::new(source, frames);
     reference.truths.clear();
@@ -52,7 +53,7 @@ fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) 
         let record = format.record();
         let settings =
             Settings { rounding, fill_mode: FillMode::Hold, ..Settings::for_depth(u32::from(record.depth().bits)) };
-        let configuration = Configuration { kept, step, rounding, rung: FillMode::Hold.into() };
+        let configuration = Configuration { kept, step, rounding, fill: FillMode::Hold.into() };
         let certificate = Certificate::of(&record.scales[0], layout.acceleration, rounding, demand.prop);
         let measured = measure::engine(&reference, &configuration, bits, settings).unwrap();
         assert_eq!(measured.frames.len(), reference.looked.len());
@@ -74,7 +75,7 @@ fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) 
 }
 
 #[test]
-fn every_scene_keeps_the_certificate_in_all_lanes() {
+fn every_scene_keeps_the_certificate_in_all_fields() {
     let mut checked = Checked::default();
     for scene in scene::all() {
         hold_to_the_certificate(&Source::Scene(*scene), scene.frames(), &mut checked);
@@ -84,7 +85,7 @@ fn every_scene_keeps_the_certificate_in_all_lanes() {
 }
 
 #[test]
-fn every_capture_keeps_the_certificate_in_all_lanes() {
+fn every_capture_keeps_the_certificate_in_all_fields() {
     let mut found = manifests(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../captures"));
     match shared() {
         Some(data) => found.extend(manifests(&data)),
@@ -159,13 +160,13 @@ fn floats_and_engine_agree_to_the_certificate_where_things_move() {
 fn floats_leave_black_holes_or_what_was_shown() {
     let pillars = scene::find("pillars").unwrap();
     let update = scene::update(pillars, 0.0);
-    for (rung, filled) in [(FillMode::None, false), (FillMode::Hold, true)] {
-        float::run(&update, Kept::Full, rung, &[1], |frame| {
+    for (fill_mode, filled) in [(FillMode::None, false), (FillMode::Hold, true)] {
+        float::run(&update, Kept::Full, fill_mode, &[1], |frame| {
             let before = update.picture();
             let mut holes = 0;
             for (index, _) in frame.reached.iter().enumerate().filter(|(_, reached)| !**reached) {
                 let expected = if filled { before.pixels[index] } else { [0; 3] };
-                assert_eq!(frame.picture.pixels[index], expected, "{rung:?}");
+                assert_eq!(frame.picture.pixels[index], expected, "{fill_mode:?}");
                 holes += 1;
             }
             assert!(holes > 20, "{holes} holes");

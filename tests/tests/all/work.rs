@@ -1,10 +1,10 @@
-//! A frame with constant work and one that skips what its picture does not need give the same bits: all planes, tally,
+//! A constant-time frame and a data-dependent one give the same bits: all planes, tally,
 //! winners and edges.
 
 use galpix_bench::pictures::Picture;
 use galpix_core::record::Field;
 use galpix_core::{Class, Colour, Dynamic, FillMode, Format, Layout, Rounding, Settings, Tally};
-use galpix_tests::lent::{Lent, Mode, Run, Shape, Trace, assert_same, with_maps, words};
+use galpix_tests::memory::{Buffers, Mode, Run, Shape, Trace, assert_same, with_maps, words};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, UNEVEN, dynamic, formats};
 use galpix_tests::random;
 use galpix_tests::stage::{self, settings_in_turn};
@@ -24,9 +24,9 @@ const SHAPES: [Shape; 9] = [
     Shape::new(1, 1, [0, 70, 0, 1]),
 ];
 
-/// Random words; or the same with few empty cells, one class per patch, and motion and depth in their low bits only, so
-/// that there are surfaces, cracks and collisions.
-fn rubbish(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
+/// Returns random words; or the same with few empty cells, one class per patch, and motion and depth in their low
+/// bits only, so that there are surfaces, cracks and collisions.
+fn arbitrary_words(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
     let record = *format.record();
     let cells = shape.cells() as usize;
     let mut content = random::words(seed, cells * record.words());
@@ -62,7 +62,7 @@ fn rubbish(format: Dynamic, shape: Shape, seed: u64) -> Vec<u32> {
     content
 }
 
-/// What frames did, in sum: a test that never met a bullet hole says nothing about bullet holes.
+/// What frames did, in sum: a test that never met a bullet hole proves nothing about bullet holes.
 #[derive(Default)]
 struct Seen(Tally);
 
@@ -84,8 +84,8 @@ impl Seen {
     }
 }
 
-/// Compares both modes on rubbish.
-fn same_on_rubbish(format: Dynamic) -> Seen {
+/// Compares both modes on arbitrary words.
+fn same_on_arbitrary_words(format: Dynamic) -> Seen {
     let depth_bits = format.record().depth().bits;
     let mut seen = Seen::default();
     let mut turn = 0;
@@ -93,17 +93,18 @@ fn same_on_rubbish(format: Dynamic) -> Seen {
         for fill_mode in FillMode::ALL {
             for reach in 1..=3 {
                 turn += 1;
-                let content = rubbish(format, shape, turn);
+                let content = arbitrary_words(format, shape, turn);
                 let rounding = Rounding::ALL[turn as usize % Rounding::ALL.len()];
-                let lent = [Lent::Both, Lent::Both, Lent::Both, Lent::Winners, Lent::Edges, Lent::Neither];
-                let lent = lent[turn as usize / 2 % lent.len()];
+                let buffers =
+                    [Buffers::Both, Buffers::Both, Buffers::Both, Buffers::Winners, Buffers::Edges, Buffers::Neither];
+                let buffers = buffers[turn as usize / 2 % buffers.len()];
                 let edge_threshold = [0, 1 << (depth_bits / 2), u32::MAX][turn as usize / 5 % 3];
                 let settings = Settings { rounding, fill_mode, edge_threshold, reach };
                 // A frame counter that wraps.
-                let run = Run { first: u32::MAX, lent, ..Run::new(settings, 3) };
+                let run = Run { first: u32::MAX, buffers, ..Run::new(settings, 3) };
                 let one = run.traces(shape, format, &content);
                 let other = run.by(Mode::ConstantTime).traces(shape, format, &content);
-                assert_same(&one, &other, &format!("{shape:?} {lent:?} {settings:?}, turn {turn}"));
+                assert_same(&one, &other, &format!("{shape:?} {buffers:?} {settings:?}, turn {turn}"));
                 one.iter().for_each(|trace| seen.add(trace));
             }
         }
@@ -112,9 +113,9 @@ fn same_on_rubbish(format: Dynamic) -> Seen {
 }
 
 #[test]
-fn rubbish_in_every_layout() {
+fn arbitrary_words_in_every_layout() {
     for (name, format) in formats() {
-        let Seen(seen) = same_on_rubbish(format);
+        let Seen(seen) = same_on_arbitrary_words(format);
         let layout = format.record().layout();
         assert!(seen.moved > 0 && seen.empty > 0, "{name}: {seen:?}");
         if layout.velocity {
@@ -151,7 +152,7 @@ fn scenes() {
     }
 }
 
-/// The pictures that constant work is measured on.
+/// The pictures on which constant time is measured.
 #[test]
 fn pictures_that_ask_for_much_or_little() {
     for (layout, bits) in [(Layout::FULL, PAPER), (Layout::SHADED, UNEVEN), (Layout::VELOCITY565, SLIDE)] {

@@ -82,7 +82,7 @@ impl OfGalpixel for Tone {
     }
 }
 
-/// Returns the stored colour nearest to one of 8 bits a channel, or one that is farther by a single code value.
+/// Returns the stored colour nearest to one of 8 bits per channel, or one that is farther by a single code value.
 #[inline(always)]
 fn stored(format: &Colour, rgb: [u8; 3]) -> u32 {
     let mut rounded = [0; 3];

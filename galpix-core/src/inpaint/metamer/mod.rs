@@ -10,7 +10,7 @@
 //! at every level and not only in the picture, and with no detail this is push-pull.
 //!
 //! `xi` is white noise through the same bands, see [`noise`]. It is taken where the surface was when the map was
-//! updated: a cell less the way its motion has brought it since (section 3.4.1). So the noise of an area moves with it,
+//! updated: a cell less the distance that it has moved since (section 3.4.1). So the noise of an area moves with it,
 //! and what opens next to it in the next frame fits.
 //!
 //! Between places, mean and deviation are interpolated as such: the last linear sample takes them, and the moments go
@@ -51,7 +51,7 @@ pub struct Recipe {
     pub levels: u32,
     /// To what the noise is scaled.
     pub noise: Scale,
-    /// Whether colours get noise of their own beside that of the luma. The chroma of a texture mostly goes with its
+    /// Whether colours get noise of their own besides that of the luma. The chroma of a texture mostly goes with its
     /// luma; noise that does not looks like coloured snow.
     pub coloured: bool,
     /// Which noise.

@@ -45,7 +45,7 @@ impl<S: Scene> Responses<'_, '_, '_, S> {
     /// Pulls what of the level lies in and around the tile that begins at `left`, `top`.
     #[inline(always)]
     fn pull_tones(&mut self, left: u32, top: u32) {
-        // What comes together need be asked for once.
+        // What is computed together is requested once.
         let (across, down) = match self.level {
             0 => return,
             level if level <= LEVELS => (ACROSS >> (level - 1), HALF as u32 >> (level - 1)),

@@ -65,7 +65,7 @@ pub const fn row_of(y: usize) -> usize {
 /// Returns 16 (delta + b).
 #[inline(always)]
 const fn smoothed([a, b, c, d, e]: [i16; 5]) -> i16 {
-    // No sum on the way is larger than the last one can be.
+    // No intermediate sum exceeds the largest possible last one.
     (a + e) + ((b + d) << 2) + 22 * c
 }
 

@@ -158,7 +158,7 @@ fn cases() -> impl Iterator<Item = Case> {
 fn what_is_worked_out_lazily_has_the_bits_of_the_reference() {
     for (width, height) in [(101, 67), (64, 64), (40, 9), (2, 1), (1, 33), (1, 1)] {
         let mut plate = Plate::new(width, height, gravel).with_holes(slivers);
-        // A nearer surface beside the slivers, and debris, which is no hole.
+        // A nearer surface next to the slivers, and debris, which is no hole.
         for cell in 0..plate.depths.len() {
             let (x, y) = (cell as i32 % width as i32, cell as i32 / width as i32);
             if (x + y / 7) % 41 > 30 {
@@ -280,7 +280,7 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 
 #[test]
 fn noise_moves_with_the_surface_and_not_with_the_screen() {
-    // A picture that moves by 3 cells a frame, and with it a hole; the same area some frames later.
+    // A picture that moves by 3 cells per frame, and with it a hole; the same area some frames later.
     let seen = |age: i32, motion: i32| {
         let mut plate = Plate::new(192, 96, |x, y| gravel(x - 3 * age, y))
             .with_holes(|x, y| (40..72).contains(&(x - 3 * age)) && (32..64).contains(&y));

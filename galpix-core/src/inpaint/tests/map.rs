@@ -132,7 +132,7 @@ fn textured<F: Format>(
     made
 }
 
-/// Makes a map of a format and runs a test over it, as often as is said.
+/// Makes a map of a format and runs a test over it, a given number of times.
 fn rounds<F: Format>(format: F, count: u32, mut test: impl FnMut((Grid<'_>, F, &[u32]), &Inpainting<'_>, &mut Random)) {
     let mut random = Random::new(7);
     for _ in 0..count {

@@ -70,7 +70,7 @@ impl Inpainter {
     }
 }
 
-/// A bit for each cell of a map that is on the display and outside of the fovea, or in the wings.
+/// Returns a bit for each cell of a map that is on the display and outside of the fovea, or in the margin.
 fn around(grid: &Grid<'_>, radius: u32) -> Vec<u32> {
     let margin = grid.margin();
     let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);

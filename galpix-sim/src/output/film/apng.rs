@@ -34,12 +34,12 @@ pub enum FilmError {
         /// Rows of the first frame.
         height: usize,
     },
-    /// More pixels or frames than a PNG can say.
+    /// More pixels or frames than a PNG can hold.
     #[error("the film cannot be written as PNG: {0}")]
     Encoding(#[from] EncodingError),
 }
 
-/// The frames as an animated PNG that loops for ever and shows each frame for `delay_ms` milliseconds.
+/// Returns the frames as an animated PNG that loops for ever and shows each frame for `delay_ms` milliseconds.
 ///
 /// Viewers that know no animation show the first frame. All frames must have the size of the first.
 pub fn apng(frames: &[Picture], delay_ms: u16, colours: Colours) -> Result<Vec<u8>, FilmError> {
@@ -54,7 +54,7 @@ pub fn apng(frames: &[Picture], delay_ms: u16, colours: Colours) -> Result<Vec<u
 }
 
 /// [`apng`] with [`Colours::Exact`] if that takes at most `most_bytes`, else with [`Colours::Palette`] whatever that
-/// takes; says which it was.
+/// takes; returns which it was.
 pub fn apng_within(frames: &[Picture], delay_ms: u16, most_bytes: usize) -> Result<(Vec<u8>, Colours), FilmError> {
     let exact = apng(frames, delay_ms, Colours::Exact)?;
     if exact.len() <= most_bytes {
@@ -78,7 +78,7 @@ fn checked_size(frames: &[Picture]) -> Result<(usize, usize), FilmError> {
     }
 }
 
-/// Deflate levels: of the film, and of the trials, which need only rank the ways.
+/// Deflate levels: of the film, and of the trials, which need only rank the candidates.
 const EFFORT: u8 = 9;
 const TRIAL_EFFORT: u8 = 4;
 
@@ -94,31 +94,31 @@ struct Patch {
 }
 
 impl Patch {
-    /// The smallest of the ways to store frame `n`.
+    /// Returns the smallest form of frame `n`.
     fn best(film: &Coded, film_width: usize, n: usize) -> Result<Self, FilmError> {
         let before = n.checked_sub(1).map(|n| film.frames[n].as_slice());
-        let mut ways = vec![Self::cut(film, film_width, n, before, None)];
+        let mut candidates = vec![Self::cut(film, film_width, n, before, None)];
         if let (Some(_), Some(clear)) = (before, &film.clear) {
-            ways.push(Self::cut(film, film_width, n, before, Some(clear)));
+            candidates.push(Self::cut(film, film_width, n, before, Some(clear)));
         }
         let mut smallest: Option<(usize, Self)> = None;
-        for way in ways {
+        for candidate in candidates {
             for filter in [Filter::NoFilter, Filter::Adaptive, Filter::MinEntropy] {
-                let trial = Self { filter, data: way.data.clone(), ..way };
+                let trial = Self { filter, data: candidate.data.clone(), ..candidate };
                 let whole = [trial.width, trial.height];
                 let bytes =
                     write(film, std::slice::from_ref(&Self { left: 0, top: 0, ..trial }), whole, 0, TRIAL_EFFORT)?
                         .len();
                 if smallest.as_ref().is_none_or(|(least, _)| bytes < *least) {
-                    smallest = Some((bytes, Self { filter, data: way.data.clone(), ..way }));
+                    smallest = Some((bytes, Self { filter, data: candidate.data.clone(), ..candidate }));
                 }
             }
         }
         smallest.map(|(_, patch)| patch).ok_or(FilmError::Nothing)
     }
 
-    /// The rectangle of frame `n` that differs from `before` (all of it without one, one pixel if nothing differs).
-    /// With `clear`, pixels in it that do not differ are that code.
+    /// Creates the rectangle of frame `n` that differs from `before` (all of it without one, one pixel if nothing
+    /// differs). With `clear`, pixels in it that do not differ are that code.
     fn cut(film: &Coded, film_width: usize, n: usize, before: Option<&[u8]>, clear: Option<&Vec<u8>>) -> Self {
         let (frame, depth) = (film.frames[n].as_slice(), film.depth);
         let pixel = |cell: usize| cell * depth..(cell + 1) * depth;
@@ -174,8 +174,8 @@ fn write(film: &Coded, patches: &[Patch], size: [usize; 2], delay_ms: u16, effor
     Ok(bytes)
 }
 
-/// The tRNS chunk that makes the code `clear` transparent: opacity of each index up to it, or the colour in 16-bit
-/// samples.
+/// Returns the tRNS chunk that makes the code `clear` transparent: opacity of each index up to it, or the colour in
+/// 16-bit samples.
 fn transparency(clear: &[u8]) -> Vec<u8> {
     match clear {
         &[index] => {

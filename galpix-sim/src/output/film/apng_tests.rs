@@ -1,4 +1,4 @@
-//! Films are read back with the decoder of `png` and composed as the specification says.
+//! Films are read back with the decoder of `png` and composed as the specification requires.
 
 use super::*;
 use crate::output::film::side_by_side;

@@ -13,7 +13,7 @@ pub const LABEL_ROWS: usize = 14;
 
 const INK: Rgb888 = Rgb888::new(226, 226, 232);
 
-/// The picture with a strip of [`LABEL_ROWS`] above it that carries `label`.
+/// Returns the picture with a strip of [`LABEL_ROWS`] above it that carries `label`.
 ///
 /// The font has ASCII, 6 pixels a character; other characters become `?`, and what is wider than the picture is cut.
 #[must_use]
@@ -25,7 +25,7 @@ pub fn labelled(picture: &Picture, label: &str) -> Picture {
     sheet
 }
 
-/// A picture to draw on; what falls outside is dropped, as the trait asks.
+/// A picture to draw on; what falls outside is dropped, as the trait requires.
 struct Canvas<'a>(&'a mut Picture);
 
 impl OriginDimensions for Canvas<'_> {
@@ -54,7 +54,7 @@ impl DrawTarget for Canvas<'_> {
 mod tests {
     use super::*;
 
-    /// The strip as art: `#` where there is ink.
+    /// Returns the strip as art: `#` where there is ink.
     fn art(picture: &Picture) -> Vec<String> {
         let mark = |x, y| if picture.at(x, y) == GROUND { '.' } else { '#' };
         (0..LABEL_ROWS).map(|y| (0..picture.width).map(|x| mark(x, y)).collect()).collect()

@@ -1,4 +1,4 @@
-//! Pictures of pictures: panels beside each other with labels, a difference made visible, and films of them.
+//! Pictures of pictures: panels side by side with labels, a difference made visible, and films of them.
 //!
 //! A film is an animated PNG ([`apng()`]): every browser plays it, it is lossless, and one `<img>` shows it without a
 //! script.
@@ -12,13 +12,13 @@ pub use label::{LABEL_ROWS, labelled};
 
 use crate::picture::Picture;
 
-/// What is between and around panels: a dark grey that is calm beside light and dark pages.
+/// What is between and around panels: a dark grey that suits light and dark pages.
 pub const GROUND: [u8; 3] = [30, 31, 36];
 
 /// How many times [`difference`] enlarges an error: from 64 code values on it is full.
 pub const DIFFERENCE_GAIN: u8 = 4;
 
-/// The panels in one row from left to right, top edges aligned, `gap` pixels of [`GROUND`] between neighbours.
+/// Returns the panels in one row from left to right, top edges aligned, `gap` pixels of [`GROUND`] between neighbours.
 ///
 /// Panels may differ in size. Without panels the picture has no pixels.
 #[must_use]
@@ -26,8 +26,8 @@ pub fn side_by_side(panels: &[&Picture], gap: usize) -> Picture {
     grid(panels, panels.len(), gap)
 }
 
-/// The panels in rows of `columns` (0 counts as 1), filled row by row; each cell has the size of the largest panel,
-/// `gap` pixels of [`GROUND`] between cells. Without panels the picture has no pixels.
+/// Returns the panels in rows of `columns` (0 counts as 1), filled row by row; each cell has the size of the largest
+/// panel, `gap` pixels of [`GROUND`] between cells. Without panels the picture has no pixels.
 #[must_use]
 pub fn grid(panels: &[&Picture], columns: usize, gap: usize) -> Picture {
     let columns = columns.clamp(1, panels.len().max(1));
@@ -45,8 +45,8 @@ pub fn grid(panels: &[&Picture], columns: usize, gap: usize) -> Picture {
     sheet
 }
 
-/// The absolute difference of each channel, enlarged [`DIFFERENCE_GAIN`] times and cut at 255: identical cells are
-/// black.
+/// Returns the absolute difference of each channel, enlarged [`DIFFERENCE_GAIN`] times and cut at 255: identical cells
+/// are black.
 ///
 /// Has the size of `truth`; a cell that `shown` lacks is white, so that a wrong size is seen and not hidden.
 #[must_use]
@@ -62,7 +62,7 @@ pub fn difference(shown: &Picture, truth: &Picture) -> Picture {
     map
 }
 
-/// The picture with each pixel repeated `factor` times in both directions; 0 counts as 1.
+/// Returns the picture with each pixel repeated `factor` times in both directions; 0 counts as 1.
 #[must_use]
 pub fn magnified(picture: &Picture, factor: usize) -> Picture {
     let factor = factor.max(1);

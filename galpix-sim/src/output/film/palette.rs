@@ -12,9 +12,9 @@ const TRAINING_PIXELS: usize = 200_000;
 
 /// All frames of a film as raw PNG samples.
 pub struct Coded {
-    /// Bytes a pixel: 3 (red, green, blue) or 1 (index).
+    /// Bytes per pixel: 3 (red, green, blue) or 1 (index).
     pub depth: usize,
-    /// The frames, row-major, `depth` bytes a pixel.
+    /// The frames, row-major, `depth` bytes per pixel.
     pub frames: Vec<Vec<u8>>,
     /// The code that stands for "as in the frame before" and that no frame uses; absent if every 24-bit colour occurs.
     pub clear: Option<Vec<u8>>,
@@ -22,7 +22,7 @@ pub struct Coded {
     pub palette: Option<Vec<u8>>,
 }
 
-/// The frames without loss: as indices if they have few enough colours, else as they are.
+/// Returns the frames without loss: as indices if they have few enough colours, else as they are.
 pub fn exact(frames: &[Picture]) -> Coded {
     indexed_exactly(frames).unwrap_or_else(|| Coded {
         depth: 3,
@@ -32,7 +32,7 @@ pub fn exact(frames: &[Picture]) -> Coded {
     })
 }
 
-/// The frames in at most [`PALETTE_COLOURS`] colours, without loss if they have no more than that.
+/// Returns the frames in at most [`PALETTE_COLOURS`] colours, without loss if they have no more than that.
 ///
 /// One palette serves the whole film, so that what stands still does not flicker. It is trained (NeuQuant) on pixels
 /// taken in a fixed order: equal films give equal bytes.
@@ -49,7 +49,8 @@ pub fn quantised(frames: &[Picture]) -> Coded {
     })
 }
 
-/// Indices into a palette of the colours that occur, in the order in which they do; `None` if they are too many.
+/// Returns the indices into a palette of the colours that occur, in the order in which they do; `None` if they are too
+/// many.
 fn indexed_exactly(frames: &[Picture]) -> Option<Coded> {
     let (mut known, mut palette) = (HashMap::new(), Vec::new());
     let mut coded = Vec::with_capacity(frames.len());
@@ -78,7 +79,7 @@ fn indexed(frames: Vec<Vec<u8>>, mut palette: Vec<u8>) -> Coded {
     Coded { depth: 1, frames, clear: Some(vec![clear]), palette: Some(palette) }
 }
 
-/// The first 24-bit colour that no frame has.
+/// Returns the first 24-bit colour that no frame has.
 fn unused_colour(frames: &[Picture]) -> Option<[u8; 3]> {
     let mut used = vec![false; 1 << 24];
     let number = |[r, g, b]: [u8; 3]| u32::from_be_bytes([0, r, g, b]) as usize;
@@ -91,7 +92,7 @@ fn unused_colour(frames: &[Picture]) -> Option<[u8; 3]> {
 mod tests {
     use super::*;
 
-    /// A film of one frame with `colours` colours.
+    /// Returns a film of one frame with `colours` colours.
     fn ramp(colours: usize) -> Vec<Picture> {
         let pixels = (0..colours).map(|n| [(n % 256) as u8, (n / 256) as u8, 9]).collect();
         vec![Picture { width: colours, height: 1, pixels }]

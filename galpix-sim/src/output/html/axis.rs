@@ -25,7 +25,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis that shows all of `figures` that are finite; `None` if there are none.
+    /// Creates an axis that shows all of `figures` that are finite; `None` if there are none.
     pub fn new(scale: Scale, figures: impl Iterator<Item = f64>) -> Option<Self> {
         let places: Vec<f64> = figures.filter(|figure| figure.is_finite()).map(|figure| place(scale, figure)).collect();
         let low = places.iter().copied().reduce(f64::min)?;
@@ -50,12 +50,12 @@ impl Axis {
         Some(Self { scale, ends: low..high, ticks })
     }
 
-    /// Where a figure is.
+    /// Returns where a figure is.
     pub fn place(&self, figure: f64) -> f64 {
         place(self.scale, figure).clamp(self.ends.start, self.ends.end)
     }
 
-    /// What a tick says.
+    /// Returns the label of a tick.
     pub fn label(&self, place: f64) -> String {
         match self.scale {
             Scale::Linear => plain(place),
@@ -90,7 +90,7 @@ fn log_ticks(low: f64, high: f64) -> Vec<f64> {
         .collect()
 }
 
-/// A figure with the digits that it needs.
+/// Returns a figure with the digits that it needs.
 fn plain(figure: f64) -> String {
     let digits = if figure == 0.0 { 0.0 } else { (2.0 - figure.abs().log10().floor()).clamp(0.0, 6.0) };
     let text = format!("{figure:.*}", digits as usize);

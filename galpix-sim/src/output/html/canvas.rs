@@ -10,19 +10,19 @@ use plotters::prelude::*;
 /// Units of the drawing for each unit of the page: `plotters` places in whole units.
 pub const FINE: u32 = 4;
 
-/// The colour of a role in the light scheme; the style sheet turns it into the reader's.
+/// Returns the colour of a role in the light scheme; the style sheet turns it into the reader's.
 pub fn colour(ink: Ink) -> RGBColor {
     let [r, g, b] = ink.light();
     RGBColor(r, g, b)
 }
 
-/// A line of `width` units of the page.
+/// Returns a line of `width` units of the page.
 pub fn pen(ink: Ink, width: u32) -> ShapeStyle {
     colour(ink).stroke_width(width * FINE)
 }
 
-/// A drawing of `width` x `height` units of the page as an element of a page, with its own opening tag instead of the
-/// backend's, which fixes a size and names a namespace that HTML does not need.
+/// Returns a drawing of `width` x `height` units of the page as an element of a page, with its own opening tag instead
+/// of the backend's, which fixes a size and names a namespace that HTML does not need.
 pub fn element(drawing: &str, width: u32, height: u32, description: &str) -> Option<String> {
     let body = drawing.split_once('>')?.1;
     Some(format!(

@@ -14,7 +14,7 @@ pub fn figures(story: &Story) -> Markup {
     html! { div.plots { (quality(story)) (position(story)) (tallies(story)) } }
 }
 
-/// A line through one column of the rows.
+/// Returns a line through one column of the rows.
 fn line(story: &Story, name: &str, ink: Ink, stroke: Stroke, column: impl Fn(&Row) -> Option<f64>) -> Line {
     let points = story.rows.iter().map(|row| (row.frame, column(row))).collect();
     Line { name: name.to_owned(), ink, stroke, points }
@@ -69,7 +69,7 @@ fn tallies(story: &Story) -> Markup {
     figure(story, ["Tallies", "cells"], [remark, "No frame was counted."], lines, true)
 }
 
-/// Returns a figure with its title and unit, and what is said under it, or instead where there is nothing to draw.
+/// Returns a figure with its title and unit, and its caption, or a sentence instead where there is nothing to draw.
 fn figure(
     story: &Story,
     [title, unit]: [&str; 2],

@@ -4,7 +4,7 @@
 //! without a script; a small one adds play, pause and stepping to the films.
 //!
 //! ```text
-//! Report ─▶ report (page: head, facts) ─▶ overview (one line a scene)
+//! Report ─▶ report (page: head, facts) ─▶ overview (one line per scene)
 //!                     └─▶ story (film, certificate, table) ─▶ figures (which lines) ─▶ plot (SVG)
 //! ```
 
@@ -27,7 +27,7 @@ pub(crate) use page::line_key;
 pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
 pub use report::html;
 
-/// Everything that a report says. All text is plain; it is escaped where it meets HTML.
+/// The content of a report. All text is plain; it is escaped where it meets HTML.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     /// Heading and window title.
@@ -36,7 +36,7 @@ pub struct Report {
     pub intro: Vec<String>,
     /// Names and values about the run: version, machine, options.
     pub facts: Vec<Fact>,
-    /// One a scene, in the order in which they are told.
+    /// One per scene, in order.
     pub stories: Vec<Story>,
 }
 
@@ -55,13 +55,13 @@ pub struct Story {
     pub budget_line: String,
     /// Name of the rounding.
     pub rounding: String,
-    /// Name of the highest rung of the fill ladder.
+    /// Name of the fill mode.
     pub fill: String,
     /// What the budget promises, where that was computed.
     pub certificate: Option<CertificateLine>,
     /// An animated PNG of the panels truth, sample-and-hold, galpix, difference; empty if there is none.
     pub film_apng: Vec<u8>,
-    /// One a frame, frames ascending.
+    /// One per frame, frames ascending.
     pub rows: Vec<Row>,
     /// Remarks, one sentence or two each.
     pub notes: Vec<String>,
@@ -101,7 +101,7 @@ pub struct Row {
     pub truth_error_px: Option<f64>,
     /// Cells that no galpixel reached.
     pub holes: u64,
-    /// Holes that a rung of the fill ladder filled.
+    /// Holes that the fill mode filled.
     pub filled: u64,
     /// Galpixels that left the map.
     pub lost: u64,
@@ -113,7 +113,7 @@ pub struct Row {
     pub bullets: u64,
     /// Just-unobscured cells filled.
     pub unobscured: u64,
-    /// Time of the frame, nanoseconds a galpixel.
+    /// Time of the frame, nanoseconds per galpixel.
     pub ns_per_galpixel: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! The table at the top: one line a scene.
+//! The table at the top: one line per scene.
 
 use maud::{Markup, html};
 
@@ -15,7 +15,7 @@ pub enum Standing {
     BeyondFrom(u32),
 }
 
-/// What one line of the overview says of a story.
+/// One line of the overview: a story.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// The last frame.
@@ -26,7 +26,7 @@ pub struct Summary {
     pub psnr_hold_db: Option<f64>,
     /// The difference of the two.
     pub gain_db: Option<f64>,
-    /// The worst position error, of the frames that the certificate covers where it says which.
+    /// The worst position error, of the frames that the certificate covers, if it names them.
     pub worst_px: Option<f64>,
     /// The certified bound at the horizon.
     pub bound_px: Option<f64>,
@@ -60,7 +60,8 @@ impl Summary {
     }
 }
 
-/// The bound of a frame, `None` beyond the horizon: that of the frame where there is one for each, else the total.
+/// Returns the bound of a frame, `None` beyond the horizon: that of the frame where there is one for each, else the
+/// total.
 fn bound_after(certificate: &CertificateLine, frame: u32) -> Option<f64> {
     match certificate.per_frame_px.is_empty() {
         true => Some(certificate.total_px),
@@ -68,7 +69,7 @@ fn bound_after(certificate: &CertificateLine, frame: u32) -> Option<f64> {
     }
 }
 
-/// The worst error and its standing, over the frames that the certificate covers (all frames without one).
+/// Returns the worst error and its standing, over the frames that the certificate covers (all frames without one).
 fn against_bound(story: &Story) -> (Option<f64>, Option<Standing>) {
     let Some(certificate) = &story.certificate else {
         return (finite(story, |row| row.position_error_px).reduce(f64::max), None);
@@ -121,7 +122,7 @@ pub fn overview(report: &Report) -> Markup {
     }
 }
 
-/// The columns beside the scene's name.
+/// The columns after the scene's name.
 const NAMES: [&str; 7] =
     ["frames", "galpix", "sample-and-hold", "gain", "worst position error", "holes", "ns a galpixel"];
 
@@ -149,7 +150,7 @@ fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> Mar
     }
 }
 
-/// Returns a cell that says its column's name where the table is narrow.
+/// Returns a cell that shows its column's name where the table is narrow.
 pub fn cell(name: &str, content: &Markup) -> Markup {
     html! { td data-name=(name) { span { (content) } } }
 }

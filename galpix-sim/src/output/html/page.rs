@@ -57,7 +57,7 @@ pub fn picture(picture: &Picture, shows: &str, caption: &str) -> Markup {
     }
 }
 
-/// Returns a section that says how to read a page; its items are markup.
+/// Returns a section on how to read a page; its items are markup.
 #[must_use]
 pub fn reading(items: &str) -> Markup {
     html! { section { h2 { "How to read it" } ul.reading { (PreEscaped(items)) } } }
@@ -75,7 +75,7 @@ pub fn list(notes: &[String]) -> Markup {
     html! { ul.notes { @for note in notes { li { (Text(note)) } } } }
 }
 
-/// What is said of a source before its figures.
+/// The introduction of a source, before its figures.
 pub struct Head<'h> {
     /// Its place among the sources.
     pub index: usize,
@@ -106,7 +106,7 @@ pub(crate) fn line_key(name: &str, ink: Ink, dashed: bool) -> Markup {
     html! { span { i class=(kind) style={ "--ink:var(--" (ink.name()) ")" } {} (Text(name)) } " " }
 }
 
-/// Returns a plot with its title and what is said of it, or that there is nothing to draw; `drawing` is an SVG element.
+/// Returns a plot with title and caption, or a sentence if there is nothing to draw; `drawing` is an SVG element.
 #[must_use]
 pub fn plot(title: &str, drawing: Option<String>, remark: &str) -> Markup {
     html! {

@@ -25,7 +25,7 @@ pub enum Stroke {
 /// One line: figures over frames. Points that are `None` or not finite are left out, the line goes on to the next.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// What the legend says.
+    /// Its entry in the legend.
     pub name: String,
     /// Its colour.
     pub ink: Ink,
@@ -40,7 +40,7 @@ impl Line {
         self.points.iter().filter_map(|&(frame, value)| Some((frame, value.filter(|value| value.is_finite())?)))
     }
 
-    /// Whether there is anything to draw.
+    /// Returns whether there is anything to draw.
     pub fn is_empty(&self) -> bool {
         self.measured().next().is_none()
     }
@@ -49,7 +49,7 @@ impl Line {
 /// A plot over frames.
 #[derive(Clone, Debug)]
 pub struct Plot {
-    /// What a reader who cannot see it is told.
+    /// A description for readers who cannot see it.
     pub description: String,
     /// The lines, drawn in this order.
     pub lines: Vec<Line>,
@@ -59,7 +59,7 @@ pub struct Plot {
     pub cap: f64,
 }
 
-/// The plot as an `<svg>` element; `None` if no line has a point.
+/// Returns the plot as an `<svg>` element; `None` if no line has a point.
 pub fn svg(plot: &Plot) -> Option<String> {
     let frames = frame_range(plot)?;
     let values = value_range(plot)?;
@@ -70,8 +70,8 @@ pub fn svg(plot: &Plot) -> Option<String> {
     element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
-/// The same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below, and those
-/// more than [`MOST_DECADES`] powers of ten below the largest, are drawn at its lower end.
+/// Returns the same over a logarithmic vertical axis, for figures of different powers of ten. Figures of 0 and below,
+/// and those more than [`MOST_DECADES`] powers of ten below the largest, are drawn at its lower end.
 pub fn svg_log(plot: &Plot) -> Option<String> {
     let frames = frame_range(plot)?;
     let (lowest, highest) = decades(plot)?;
@@ -81,7 +81,7 @@ pub fn svg_log(plot: &Plot) -> Option<String> {
     element(&drawing, WIDTH, HEIGHT, &plot.description)
 }
 
-/// The powers of ten around all figures above 0, never the same.
+/// Returns the powers of ten around all figures above 0, never the same.
 fn decades(plot: &Plot) -> Option<(i32, i32)> {
     let powers =
         || plot.lines.iter().flat_map(Line::measured).filter(|(_, value)| *value > 0.0).map(|(_, v)| v.log10());
@@ -116,7 +116,7 @@ impl Ranged for Decades {
     }
 }
 
-/// A whole power of ten as a label: a plain number where that is short.
+/// Returns a whole power of ten as a label: a plain number where that is short.
 fn power_of_ten(power: f64) -> String {
     const DIGITS: [char; 10] = [
         '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}',
@@ -135,14 +135,14 @@ fn power_of_ten(power: f64) -> String {
     }
 }
 
-/// First and last frame, never the same.
+/// Returns the first and last frame, never the same.
 fn frame_range(plot: &Plot) -> Option<std::ops::Range<u32>> {
     let frames = || plot.lines.iter().flat_map(Line::measured).map(|(frame, _)| frame);
     let (first, last) = (frames().min()?, frames().max()?);
     Some(if first == last { first.saturating_sub(1)..last.saturating_add(1) } else { first..last })
 }
 
-/// The vertical extent, never empty.
+/// Returns the vertical extent, never empty.
 fn value_range(plot: &Plot) -> Option<std::ops::Range<f64>> {
     let values = || plot.lines.iter().flat_map(Line::measured).map(|(_, value)| value);
     values().next()?;
@@ -209,8 +209,8 @@ where
     Ok(drawing)
 }
 
-/// Digits after the point that tell the labels of an axis of this length apart: its five or six steps are 1, 2 or 5
-/// times a power of ten.
+/// Returns the digits after the point that distinguish the labels of an axis of this length: its five or six steps are
+/// 1, 2 or 5 times a power of ten.
 fn decimals(span: f64) -> usize {
     (-(span / 6.0).log10().floor()).clamp(0.0, 6.0) as usize
 }

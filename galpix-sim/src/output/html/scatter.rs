@@ -38,7 +38,7 @@ pub struct Mark {
     pub ink: Ink,
     /// Its shape.
     pub shape: Shape,
-    /// What stands beside it.
+    /// Its label.
     pub label: String,
 }
 
@@ -56,7 +56,7 @@ pub struct Course {
 /// A plot with two free axes.
 #[derive(Clone, Debug)]
 pub struct Scatter {
-    /// What a reader who cannot see it is told.
+    /// A description for readers who cannot see it.
     pub description: String,
     /// Title and scale of the axis to the right.
     pub x: (String, Scale),
@@ -68,14 +68,14 @@ pub struct Scatter {
     pub marks: Vec<Mark>,
 }
 
-/// A level line at `height`, from one end of `marks` to the other.
+/// Returns a level line at `height`, from one end of `marks` to the other.
 pub fn level(height: f64, ink: Ink, marks: &[Mark]) -> Option<Course> {
     let low = marks.iter().map(|mark| mark.at.0).reduce(f64::min)?;
     let high = marks.iter().map(|mark| mark.at.0).reduce(f64::max)?;
     Some(Course { ink, dashed: true, points: vec![(low, height), (high, height)] })
 }
 
-/// The plot as an `<svg>` element; `None` if there is nothing to draw.
+/// Returns the plot as an `<svg>` element; `None` if there is nothing to draw.
 pub fn svg(plot: &Scatter) -> Option<String> {
     let points = || plot.courses.iter().flat_map(|course| course.points.iter().copied());
     let marks = || plot.marks.iter().map(|mark| mark.at);
@@ -154,7 +154,7 @@ fn draw(plot: &Scatter, x: &Axis, y: &Axis, drawing: &mut String) -> Drawn {
     Ok(())
 }
 
-/// The corners of a shape around a mark.
+/// Returns the corners of a shape around a mark.
 fn corners(shape: Shape, radius: i32) -> Vec<(i32, i32)> {
     let r = radius;
     match shape {
@@ -165,7 +165,7 @@ fn corners(shape: Shape, radius: i32) -> Vec<(i32, i32)> {
     }
 }
 
-/// A mark for a legend.
+/// Returns a mark for a legend.
 pub fn key(shape: Shape, ink: Ink, radius: f64) -> String {
     let middle = 9.0;
     let style = format!("style=\"fill:var(--{0});stroke:var(--{0})\"", ink.name());

@@ -11,7 +11,7 @@ const HEIGHT: u32 = 320;
 /// One layer: what each bar has of it.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    /// What the legend says.
+    /// Its entry in the legend.
     pub name: String,
     /// Its colour.
     pub ink: Ink,
@@ -22,7 +22,7 @@ pub struct Layer {
 /// Bars over frames.
 #[derive(Clone, Debug)]
 pub struct Stack {
-    /// What a reader who cannot see it is told.
+    /// A description for readers who cannot see it.
     pub description: String,
     /// Title of the axis upwards.
     pub y: String,
@@ -34,7 +34,7 @@ pub struct Stack {
     pub lines: Vec<Layer>,
 }
 
-/// The plot as an `<svg>` element; `None` if there is nothing to draw.
+/// Returns the plot as an `<svg>` element; `None` if there is nothing to draw.
 pub fn svg(stack: &Stack) -> Option<String> {
     let heights =
         (0..stack.frames.len()).map(|bar| stack.layers.iter().filter_map(|layer| layer.figures.get(bar)).sum::<f64>());

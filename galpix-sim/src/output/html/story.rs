@@ -52,13 +52,13 @@ fn film(story: &Story) -> Markup {
     }
 }
 
-/// Width and height as a PNG's header says.
+/// Returns the width and height from a PNG's header.
 fn png_size(bytes: &[u8]) -> Option<[u32; 2]> {
     let side = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
     (bytes.get(12..16)? == b"IHDR").then_some([side(16)?, side(20)?])
 }
 
-/// The certificate in words, and what was measured beside it.
+/// Returns the certificate in words, and the measured errors.
 fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
     let px = |value: f64| format!("{}\u{00A0}px", figure(Some(value), 4));
     let (class, verdict) = match certificate.holds {
@@ -77,7 +77,7 @@ fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
              certificate covers the arithmetic, not motion that velocity and acceleration cannot describe.",
             px(worst)
         ),
-        _ => "The true motion is not known here, so nothing was measured beside it.".to_owned(),
+        _ => "The true motion is not known here, so no error was measured.".to_owned(),
     };
     html! {
         p class={ "promise " (class) } {

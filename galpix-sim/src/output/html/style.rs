@@ -31,7 +31,7 @@ pub enum Ink {
     Label,
 }
 
-/// Role, name in the style sheet, light colour, dark colour. The light colours tell the roles apart: no two are equal.
+/// Role, name in the style sheet, light colour, dark colour. The light colours identify the roles: no two are equal.
 const INKS: [(Ink, &str, u32, u32); 12] = [
     (Ink::Galpix, "galpix", 0x1F5FD0, 0x7AA8FF),
     (Ink::Hold, "hold", 0xC0620C, 0xF0A04B),
@@ -52,19 +52,19 @@ impl Ink {
         INKS.iter().find(|entry| entry.0 == self).map_or(("label", 0), |&(_, name, light, _)| (name, light))
     }
 
-    /// The name of the role's custom property in the style sheet, without the dashes.
+    /// Returns the name of the role's custom property in the style sheet, without the dashes.
     pub fn name(self) -> &'static str {
         self.entry().0
     }
 
-    /// The colour in the light scheme: red, green, blue.
+    /// Returns the colour in the light scheme: red, green, blue.
     pub fn light(self) -> [u8; 3] {
         let [_, r, g, b] = self.entry().1.to_be_bytes();
         [r, g, b]
     }
 }
 
-/// The style sheet of the page.
+/// Returns the style sheet of the page.
 pub fn sheet() -> String {
     let mut sheet = String::new();
     let scheme = |dark: bool| {

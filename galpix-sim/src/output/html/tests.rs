@@ -3,7 +3,7 @@
 use super::overview::{Standing, Summary};
 use super::*;
 
-/// A story with every part; `frames` rows.
+/// Returns a story with every part; `frames` rows.
 fn story(name: &str, frames: u32) -> Story {
     let row = |frame: u32| Row {
         frame,
@@ -53,7 +53,7 @@ fn report(stories: Vec<Story>) -> Report {
     }
 }
 
-/// The document without what is not markup.
+/// Returns the document without what is not markup.
 fn markup(html: &str) -> String {
     let mut left = html.to_owned();
     for element in ["script", "style"] {
@@ -83,7 +83,7 @@ fn assert_balanced(html: &str) {
     assert!(open.is_empty(), "never closed: {open:?}");
 }
 
-/// Panics if the page asks for anything outside of itself.
+/// Panics if the page loads anything from elsewhere.
 fn assert_self_contained(html: &str) {
     for outside in ["http:", "https:", "//cdn", "@import", "url(", "<link", "<iframe", "src=\"/", "src=\"."] {
         assert!(!html.contains(outside), "the page contains {outside}");

@@ -32,7 +32,7 @@ impl maud::Render for Text<'_> {
     }
 }
 
-/// A measured figure with `decimals` digits after the point; a dash if there is none or it is not finite.
+/// Returns a measured figure with `decimals` digits after the point; a dash if there is none or it is not finite.
 pub fn figure(value: Option<f64>, decimals: usize) -> String {
     match value.filter(|value| value.is_finite()) {
         // adding 0.0 turns a negative zero into a plain one
@@ -41,13 +41,13 @@ pub fn figure(value: Option<f64>, decimals: usize) -> String {
     }
 }
 
-/// A difference: [`figure`] with its sign.
+/// Returns a difference: [`figure`] with its sign.
 pub fn signed(value: Option<f64>, decimals: usize) -> String {
     let plus = if value.is_some_and(|value| value.is_finite() && round(value, decimals) > 0.0) { "+" } else { "" };
     format!("{plus}{}", figure(value, decimals))
 }
 
-/// A count in groups of three digits.
+/// Returns a count in groups of three digits.
 pub fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut grouped = String::new();
@@ -60,8 +60,8 @@ pub fn count(value: u64) -> String {
     grouped
 }
 
-/// The fragment that leads to story `index` (0 is the first): letters and digits of its name, made unique by its
-/// number.
+/// Returns the fragment that leads to story `index` (0 is the first): letters and digits of its name, made unique by
+/// its number.
 pub fn anchor(index: usize, name: &str) -> String {
     let letters = name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' });
     format!("scene-{}-{}", index + 1, letters.collect::<String>().trim_matches('-'))

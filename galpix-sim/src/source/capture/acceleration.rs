@@ -57,7 +57,7 @@ pub(super) fn chain(
     Ok(())
 }
 
-/// The flow at a place between cells; `None` outside of the picture or beside an unknown cell.
+/// The flow at a place between cells; `None` outside of the picture or next to an unknown cell.
 fn bilinear(flow: &[Option<[f64; 2]>], size: Size, x: f64, y: f64) -> Option<[f64; 2]> {
     if !(x >= 0.0 && y >= 0.0 && x <= (size.width - 1) as f64 && y <= (size.height - 1) as f64) {
         return None;
@@ -74,7 +74,7 @@ fn bilinear(flow: &[Option<[f64; 2]>], size: Size, x: f64, y: f64) -> Option<[f6
     }))
 }
 
-/// Takes all accelerations away, as `acceleration = false` asks.
+/// Removes all accelerations, for `acceleration = false`.
 pub(super) fn leave_out(motion: &mut [Option<Track>]) {
     for track in motion.iter_mut().flatten() {
         track.acceleration = [0.0; 3];

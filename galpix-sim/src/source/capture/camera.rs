@@ -15,8 +15,8 @@ pub(super) struct Track {
 }
 
 impl Track {
-    /// Whether all six numbers are finite and of a size that a displacement can have (formats mark unknown by 1e9 and
-    /// up).
+    /// Returns whether all six numbers are finite and of a size that a displacement can have (formats mark unknown by
+    /// 1e9 and up).
     pub fn is_usable(&self) -> bool {
         self.velocity.iter().chain(&self.acceleration).all(|v| v.abs() <= 1e9)
     }
@@ -57,7 +57,7 @@ impl View {
     }
 }
 
-/// The motion of each sample, `None` where the depth is unknown or the point is behind one of the cameras.
+/// Returns the motion of each sample, `None` where the depth is unknown or the point is behind one of the cameras.
 ///
 /// `frames`: display frames between two poses. Far points are directions: they turn with the camera and do not
 /// approach.

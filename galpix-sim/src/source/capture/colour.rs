@@ -1,9 +1,10 @@
 //! Colour pictures: PNG, JPEG, and EXR (linear light, encoded as sRGB here).
 
-use std::io::Cursor;
-
-use image::ImageDecoder;
-use image::codecs::jpeg::JpegDecoder;
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::errors::DecodeErrors;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::Census;
 use super::error::CaptureError;
@@ -35,18 +36,23 @@ pub(super) fn read(source: &Source, channel: Option<&str>, expected: Option<Size
 }
 
 fn jpeg(source: &Source, expected: Option<Size>) -> Result<(Size, Vec<[u8; 3]>), CaptureError> {
-    let damaged = |e: image::ImageError| source.damaged(e);
+    let damaged = |e: DecodeErrors| source.damaged(e);
     // The decoder is lenient: it paints grey what a truncated file lacks.
     if !jpeg_is_whole(&source.bytes) {
         return Err(source.damaged("it has no end marker"));
     }
-    let decoder = JpegDecoder::new(Cursor::new(source.bytes.as_slice())).map_err(damaged)?;
-    let (width, height) = decoder.dimensions();
-    let size = source.agree(u64::from(width), u64::from(height), expected)?;
-    let picture = image::DynamicImage::from_decoder(decoder).map_err(damaged)?.into_rgb8();
-    let pixels = picture.pixels().map(|p| p.0).collect::<Vec<_>>();
-    if pixels.len() == size.cells() {
-        Ok((size, pixels))
+    let options = DecoderOptions::default()
+        .set_max_width(usize::MAX)
+        .set_max_height(usize::MAX)
+        .jpeg_set_out_colorspace(ColorSpace::RGB);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(source.bytes.as_slice()), options);
+    decoder.decode_headers().map_err(damaged)?;
+    let (width, height) = decoder.dimensions().ok_or_else(|| source.damaged("it has no size"))?;
+    let size = source.agree(width as u64, height as u64, expected)?;
+    let bytes = decoder.decode().map_err(damaged)?;
+    let (pixels, rest) = bytes.as_chunks::<3>();
+    if pixels.len() == size.cells() && rest.is_empty() {
+        Ok((size, pixels.to_vec()))
     } else {
         Err(source.damaged("its pixels do not fill its size"))
     }
@@ -87,15 +93,15 @@ fn combined(
     Ok((size, r.iter().zip(&g).zip(&b).map(|((&r, &g), &b)| [r, g, b].map(srgb)).collect()))
 }
 
-/// Linear light (1 = white) as an 8-bit sRGB code, IEC 61966-2-1; NaN becomes black.
+/// Returns linear light (1 = white) as an 8-bit sRGB code, IEC 61966-2-1; NaN becomes black.
 fn srgb(linear: f64) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
     let code = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (code * 255.0).round() as u8
 }
 
-/// What is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half. Others that
-/// are not quite transparent, or not quite opaque, are noted.
+/// Returns what is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half.
+/// Others that are not quite transparent, or not quite opaque, are noted.
 pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> Result<Overlay, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as an overlay must be", "save it as a PNG with alpha"));
@@ -118,7 +124,7 @@ pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> R
     Ok(Overlay { width: expected.width, height: expected.height, pixels })
 }
 
-/// A mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.
+/// Returns a mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.
 pub(super) fn mask(source: &Source, expected: Size) -> Result<Vec<bool>, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as a mask must be", "save it as an 8-bit grey PNG"));

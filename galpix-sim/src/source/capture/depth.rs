@@ -8,7 +8,8 @@ use super::manifest::{Depth, Map};
 use super::raster;
 use super::source::{Size, Source};
 
-/// The distance of each cell in the manifest's unit (disparities stay disparities); `None` if there is no depth at all.
+/// Returns the distance of each cell in the manifest's unit (disparities stay disparities); `None` if there is no depth
+/// at all.
 pub(super) fn read(depth: &Depth, folder: &Path, size: Size) -> Result<Option<Vec<Distance>>, CaptureError> {
     match depth {
         Depth::Speed(_) => Ok(None),
@@ -20,7 +21,7 @@ pub(super) fn read(depth: &Depth, folder: &Path, size: Size) -> Result<Option<Ve
     }
 }
 
-/// The distances of a map along the optical axis.
+/// Returns the distances of a map along the optical axis.
 pub(super) fn planar(map: &Map, folder: &Path, size: Size) -> Result<Vec<Distance>, CaptureError> {
     Ok(numbers(map, folder, size)?.into_iter().map(|raw| distance(map, raw)).collect())
 }
@@ -42,7 +43,7 @@ fn distance(map: &Map, raw: f64) -> Distance {
     }
 }
 
-/// No parallax at all: infinitely far, unless the manifest says that zero means unknown.
+/// Returns no parallax at all: infinitely far, unless zero means unknown by the manifest.
 fn zero_disparity(map: &Map) -> Distance {
     if map.invalid.holds(0.0) { Distance::Unknown } else { Distance::Far }
 }

@@ -1,4 +1,4 @@
-//! Sintel `.dpt`: the layout of `.flo` with one 32-bit float a pixel, the planar depth in metres.
+//! Sintel `.dpt`: the layout of `.flo` with one 32-bit float per pixel, the planar depth in metres.
 
 use super::error::CaptureError;
 use super::source::{Bands, Size, Source};

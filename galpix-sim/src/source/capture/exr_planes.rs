@@ -24,7 +24,7 @@ pub(super) struct Planes<'a> {
 
 /// One channel.
 struct Named {
-    /// As the file says it.
+    /// Its name in the file.
     name: String,
     /// With the part's name before it, if the part has one.
     in_part: Option<String>,
@@ -58,23 +58,23 @@ impl<'a> Planes<'a> {
         Ok(Self { source, channels })
     }
 
-    /// The only channel of the file, if it has just one.
+    /// Returns the only channel of the file, if it has just one.
     pub fn only(&self) -> Option<&str> {
         if let [only] = &self.channels[..] { Some(&only.name) } else { None }
     }
 
-    /// Whether `name` names a channel; ambiguous counts as yes.
+    /// Returns whether `name` names a channel; ambiguous counts as yes.
     pub fn has(&self, name: &str) -> bool {
         !self.candidates(name).is_empty()
     }
 
-    /// The size of the channel `name`, within the importers' limits and equal to `expected` if that is given.
+    /// Returns the size of the channel `name`, within the importers' limits and equal to `expected` if that is given.
     pub fn size(&self, name: &str, expected: Option<Size>) -> Result<Size, CaptureError> {
         let [width, height] = self.channel(name)?.size;
         self.source.agree(width, height, expected)
     }
 
-    /// The values of the channel `name`, row-major.
+    /// Returns the values of the channel `name`, row-major.
     pub fn band(&self, name: &str, expected: Size) -> Result<Vec<f64>, CaptureError> {
         let size = self.size(name, Some(expected))?;
         let values: Vec<f64> = self.channel(name)?.samples.values_as_f32().map(f64::from).collect();
@@ -85,7 +85,7 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// The channel `name`, or an error that lists what there is.
+    /// Returns the channel `name`, or an error that lists what there is.
     fn channel(&self, name: &str) -> Result<&Named, CaptureError> {
         match self.candidates(name)[..] {
             [channel] => Ok(channel),
@@ -99,7 +99,8 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// Channels that `name` may mean: by full name, else by name with the part, else by the end of the name.
+    /// Returns the channels that `name` may mean: by full name, else by name with the part, else by the end of the
+    /// name.
     fn candidates(&self, name: &str) -> Vec<&Named> {
         let ends = |full: &str| full.strip_suffix(name).is_some_and(|before| before.ends_with('.'));
         let exact: Vec<&Named> = self.channels.iter().filter(|c| c.name == name).collect();
@@ -109,7 +110,7 @@ impl<'a> Planes<'a> {
         [exact, in_part].into_iter().find(|found| !found.is_empty()).unwrap_or_else(by_end)
     }
 
-    /// The names of the first channels, for a message.
+    /// Returns the names of the first channels, for a message.
     fn list(&self) -> String {
         const SHOWN: usize = 24;
         let names: Vec<&str> = self.channels.iter().take(SHOWN).map(|c| c.name.as_str()).collect();
@@ -118,7 +119,7 @@ impl<'a> Planes<'a> {
     }
 }
 
-/// `prefix.name`, or `name` alone under an empty prefix.
+/// Returns `prefix.name`, or `name` alone under an empty prefix.
 pub(super) fn under(prefix: &str, name: &str) -> String {
     if prefix.is_empty() { name.to_owned() } else { format!("{prefix}.{name}") }
 }

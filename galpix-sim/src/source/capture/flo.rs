@@ -10,7 +10,7 @@ pub(super) fn read(source: &Source, expected: Size) -> Result<Bands, CaptureErro
     read_tagged(source, expected, 2)
 }
 
-/// Reads the layout that `.flo` and `.dpt` share: a tag, the size, and `bands` interleaved floats a pixel.
+/// Reads the layout that `.flo` and `.dpt` share: a tag, the size, and `bands` interleaved floats per pixel.
 pub(super) fn read_tagged(source: &Source, expected: Size, bands: usize) -> Result<Bands, CaptureError> {
     let side = |start| array(&source.bytes, start).map(i32::from_le_bytes);
     let (Some(width), Some(height)) = (side(4), side(8)) else {

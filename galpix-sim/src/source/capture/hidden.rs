@@ -1,5 +1,4 @@
-//! What a capture knows behind its update: a second layer over the same pixels, or what pictures from elsewhere see
-//! there.
+//! The hidden samples of a capture: a second layer over the same pixels, or what pictures from other places show.
 
 use std::path::Path;
 
@@ -15,8 +14,8 @@ use crate::update::{Known, Update};
 /// Depths of one surface differ from cell to cell by less than this part.
 const SAME_SURFACE: f64 = 0.05;
 
-/// The hidden samples as an update over the same cells, whose depths are normalised as the first layer's are; nothing
-/// if there are none in the manifest. What is no farther than the first layer is not hidden, and left out.
+/// Returns the hidden samples as an update over the same cells, whose depths are normalised as the first layer's are;
+/// nothing if there are none in the manifest. What is no farther than the first layer is not hidden, and left out.
 pub(super) fn read(
     opened: Opened<'_>,
     unit: Unit,
@@ -74,7 +73,7 @@ pub(super) fn read(
 ///
 /// Each pixel of a view is lifted with its depth and projected into the update's camera, and so are the places half way
 /// between pixels of one surface, so that no cracks open where the view is coarser. A sample is put into the middle of
-/// the cell that it falls into, at most half a pixel beside its place.
+/// the cell that it falls into, at most half a pixel from its place.
 fn seen_from_elsewhere(
     Opened { manifest, folder, size, distances: first }: Opened<'_>,
     views: &Views,
@@ -107,16 +106,16 @@ fn seen_from_elsewhere(
                 Some(Distance::Unknown) => true,
                 Some(Distance::Far) | None => false,
             };
-            let beside = (seen[0] - x).hypot(seen[1] - y);
+            let distance = (seen[0] - x).hypot(seen[1] - y);
             let better = match nearest[cell] {
                 // Of one surface what is nearer to the middle of the cell, of two the nearer surface.
-                Distance::At(there) if (there - pz).abs() <= SAME_SURFACE * there.min(pz) => beside < off[cell],
+                Distance::At(there) if (there - pz).abs() <= SAME_SURFACE * there.min(pz) => distance < off[cell],
                 Distance::At(there) => pz < there,
                 Distance::Far | Distance::Unknown => true,
             };
             if hidden && better {
                 nearest[cell] = Distance::At(pz);
-                off[cell] = beside;
+                off[cell] = distance;
                 picture.pixels[cell] = colour;
             }
         }
@@ -130,7 +129,7 @@ fn read_view(view: &View, folder: &Path, size: Size) -> Result<(Picture, Vec<Dis
     Ok((colours, depth::planar(&view.depth, folder, size)?))
 }
 
-/// The pixels of a view, and the places half way between those of one surface: place, distance, colour.
+/// Returns the pixels of a view, and the places half way between those of one surface: place, distance, colour.
 fn lattice(colours: &Picture, distances: &[Distance], size: Size) -> impl Iterator<Item = ([f64; 2], f64, [u8; 3])> {
     let corner = move |x: usize, y: usize| {
         let cell = y * size.width + x;

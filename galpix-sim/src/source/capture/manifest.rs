@@ -88,7 +88,7 @@ pub(super) enum Depth {
 #[serde(deny_unknown_fields)]
 pub(super) struct Nothing {}
 
-/// A map of one number a pixel.
+/// A map of one number per pixel.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
@@ -107,7 +107,7 @@ pub(super) struct Map {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum MapFormat {
-    /// One number a pixel, as the file says.
+    /// One number per pixel, as stored in the file.
     #[default]
     Raw,
     /// 8-bit RGB, `4 R + G / 64 + B / 16384`.
@@ -129,7 +129,7 @@ enum OneOrMany {
 }
 
 impl Invalid {
-    /// Whether `raw` is one of the values; compared as 32-bit floats, as most files hold them.
+    /// Returns whether `raw` is one of the values; compared as 32-bit floats, as most files hold them.
     pub fn holds(&self, raw: f64) -> bool {
         self.0.iter().any(|&value| value == raw || value as f32 == raw as f32)
     }
@@ -269,7 +269,7 @@ pub(super) enum Background {
     Camera,
     /// Not at all: the cell starts empty.
     Empty,
-    /// As the motion's file says.
+    /// As given by the file of the motion.
     Given,
 }
 
@@ -334,11 +334,11 @@ impl Manifest {
         let text = source.text()?;
         let mut manifest: Self = toml::from_str(text).map_err(|e| syntax(&source, text, &e))?;
         manifest.truth.sort_by_key(|truth| truth.frame);
-        manifest.check().map_err(|(what, mend)| source.fault(what, mend))?;
+        manifest.check().map_err(|(what, hint)| source.fault(what, hint))?;
         Ok(manifest)
     }
 
-    /// Checks the values; errors are (what, mend).
+    /// Checks the values; errors are (what, hint).
     fn check(&self) -> Result<(), (String, &'static str)> {
         frames("frames", self.frames)?;
         match &self.update.depth {
@@ -350,15 +350,15 @@ impl Manifest {
             (&self.update.motion, &self.update.depth),
             (Motion::Camera(_), Depth::Disparity(_) | Depth::Speed(_))
         ) {
-            let mend = "give a depth map of kind \"z\", or another motion";
-            return Err(("moves a camera past cells whose distance is unknown".into(), mend));
+            let hint = "give a depth map of kind \"z\", or another motion";
+            return Err(("moves a camera past cells whose distance is unknown".into(), hint));
         }
         if self.update.background == Background::Camera
             && self.update.camera.is_none()
             && !matches!(self.update.motion, Motion::Camera(_))
         {
-            let mend = "add an [update.camera] with intrinsics and poses, or choose still or empty";
-            return Err(("asks for background = \"camera\" and gives no camera".into(), mend));
+            let hint = "add an [update.camera] with intrinsics and poses, or choose still or empty";
+            return Err(("asks for background = \"camera\" and gives no camera".into(), hint));
         }
         if let Some(Acceleration::NextFlow(flow)) = &self.update.acceleration {
             frames("acceleration.frames", flow.frames)?;
@@ -445,10 +445,10 @@ fn positive(key: &str, value: f64) -> Result<(), (String, &'static str)> {
     Err((format!("{key} is {value}"), "write a finite number above zero"))
 }
 
-/// A parser's error as a sentence with the line and the mend.
+/// Returns a parser's error as a sentence with the line and the hint.
 fn syntax(source: &Source, text: &str, error: &toml::de::Error) -> CaptureError {
     let message = error.message().replace("unknown field", "unknown key").replace("missing field", "missing key");
-    let mend = if message.contains("unknown key") {
+    let hint = if message.contains("unknown key") {
         "remove that key or write an expected one"
     } else if message.contains("missing key") {
         "add that key"
@@ -459,5 +459,5 @@ fn syntax(source: &Source, text: &str, error: &toml::de::Error) -> CaptureError 
     };
     let line = error.span().and_then(|span| text.get(..span.start)).map(|before| before.matches('\n').count() + 1);
     let place = line.map(|line| format!("line {line}: ")).unwrap_or_default();
-    source.fault(format!("{place}{message}"), mend)
+    source.fault(format!("{place}{message}"), hint)
 }

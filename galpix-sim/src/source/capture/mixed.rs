@@ -3,7 +3,7 @@
 //! In an anti-aliased render the depth of a pixel comes from one sample, but its vector is averaged over the pixel: at
 //! the border of a surface that moves, it lies somewhere between the vectors of the two sides. Such a vector is
 //! replaced by that of the nearest cell of the same surface that is away from any border. A vector that is not between
-//! the two sides is the surface's own, as in a render of one sample a pixel, and is left alone.
+//! the two sides is the surface's own, as in a render of one sample per pixel, and is left alone.
 
 use super::camera::{Distance, Track};
 use super::source::Size;
@@ -11,7 +11,7 @@ use super::source::Size;
 /// Depths of one surface differ from cell to cell by less than this part.
 const SAME_SURFACE: f64 = 0.05;
 
-/// Smaller differences, in pixels a frame, are taken for the surface's own.
+/// Smaller differences, in pixels per frame, are taken for the surface's own.
 const TOLERANCE: f64 = 0.1;
 
 /// A mixed vector lies on the line between the two sides' to within this part of their difference.
@@ -65,11 +65,11 @@ fn between(mixed: [f64; 3], own: [f64; 3], other: [f64; 3]) -> bool {
         return false;
     }
     let part = (off[0] * across[0] + off[1] * across[1]) / squared;
-    let beside = (off[0] * across[1] - off[1] * across[0]).abs() / squared;
-    part > 0.0 && part <= 1.0 + OFF_LINE && beside <= OFF_LINE
+    let distance = (off[0] * across[1] - off[1] * across[0]).abs() / squared;
+    part > 0.0 && part <= 1.0 + OFF_LINE && distance <= OFF_LINE
 }
 
-/// The cells at most `reach` columns and rows away, inside the picture.
+/// Returns the cells at most `reach` columns and rows away, inside the picture.
 fn around(size: Size, x: usize, y: usize, reach: usize) -> impl Iterator<Item = usize> {
     let columns = x.saturating_sub(reach)..(x + reach + 1).min(size.width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(size.height);

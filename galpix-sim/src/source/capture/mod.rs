@@ -6,7 +6,7 @@
 //!
 //! Positions are in pixels, x to the right, y down; frame 0 is the update; times are in display frames. Whatever is
 //! read is hostile: sizes are checked before anything of that size is allocated, and every refusal is one sentence that
-//! names the file and the mend.
+//! names the file and the hint.
 
 mod acceleration;
 mod camera;
@@ -60,10 +60,10 @@ pub struct Census {
     pub unknown_motion: usize,
     /// Cells that are infinitely far; they are among `known`, unless the background is empty.
     pub far: usize,
-    /// Cells behind whose sample another one is known, where that was asked for.
+    /// Cells behind whose sample another one is known, if that was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hidden: Option<usize>,
-    /// Cells whose acceleration was asked for and is unknown: they move with their velocity.
+    /// Cells whose requested acceleration is unknown: they move with their velocity.
     pub unknown_acceleration: usize,
     /// Remarks, one sentence each.
     pub notes: Vec<String>,

@@ -54,7 +54,7 @@ pub(super) fn read(
     Ok(tracks)
 }
 
-/// Velocities of the depth come in the depth's raw unit.
+/// Returns the unit in which velocities of the depth are given: the raw unit of the depth.
 fn depth_scale(depth: &Depth) -> f64 {
     match depth {
         Depth::Z(map) | Depth::Disparity(map) => map.scale,
@@ -80,7 +80,7 @@ fn displacements(flow: &Flow, folder: &Path, size: Size) -> Result<Vec<Option<Tr
     Ok(flows.into_iter().map(|flow| Some(steady(flow?.map(|component| component / frames)))).collect())
 }
 
-/// `VX VY` and, where present, `VZ AX AY AZ`, each per step of `frames` display frames.
+/// Returns `VX VY` and, where present, `VZ AX AY AZ`, each per step of `frames` display frames.
 fn planes(passes: &Passes, folder: &Path, size: Size, depth_scale: f64) -> Result<Vec<Option<Track>>, CaptureError> {
     let source = Source::open(&folder.join(&passes.file))?;
     let planes = Planes::read(&source)?;
@@ -134,8 +134,8 @@ fn from_camera(
     // The background may come from the same path.
     census.notes.extend(path.note.clone().filter(|note| !census.notes.contains(note)));
     let Some(distances) = distances else {
-        let mend = "give a depth map of kind \"z\", or another motion";
-        return Err(CaptureError::new(&folder.join(&camera.poses), "moves a camera past cells of unknown depth", mend));
+        let hint = "give a depth map of kind \"z\", or another motion";
+        return Err(CaptureError::new(&folder.join(&camera.poses), "moves a camera past cells of unknown depth", hint));
     };
     Ok(camera::tracks(&path, camera.frames, size, distances))
 }

@@ -54,7 +54,7 @@ struct Decoder {
     value: fn(&[u8]) -> f64,
 }
 
-/// The decoder of a type such as `<f4`, or `None` for a type that is not read.
+/// Returns the decoder of a type such as `<f4`, or `None` for a type that is not read.
 fn decoder(descr: &str) -> Option<Decoder> {
     macro_rules! decoder {
         ($number:ty, $from:ident) => {
@@ -78,7 +78,7 @@ fn decoder(descr: &str) -> Option<Decoder> {
     })
 }
 
-/// The text of the header and the place where the values begin.
+/// Returns the text of the header and the place where the values begin.
 fn header_text(source: &Source) -> Result<(&str, usize), CaptureError> {
     let bytes = &source.bytes;
     let found = match bytes.get(6) {
@@ -132,7 +132,7 @@ fn parse(text: &str) -> Option<Header> {
     Some(Header { descr: descr?, fortran: fortran?, shape: shape? })
 }
 
-/// A Python string at the beginning of `text`, and what follows it.
+/// Returns a Python string at the beginning of `text`, and what follows it.
 fn quoted(text: &str) -> Option<(&str, &str)> {
     let quote = text.chars().next().filter(|&c| c == '\'' || c == '"')?;
     text[1..].split_once(quote)

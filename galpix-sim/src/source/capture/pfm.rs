@@ -1,6 +1,6 @@
 //! Portable float map: `Pf` (one band) or `PF` (three), columns, rows, a scale whose sign is the byte order (negative =
 //! little endian), one blank, then 32-bit floats, rows from **bottom to top**. The size of the scale is a remark about
-//! units that nobody honours; it is ignored here as well.
+//! units that no reader honours; it is ignored here as well.
 
 use super::error::CaptureError;
 use super::source::{Bands, Size, Source};
@@ -34,7 +34,7 @@ pub(super) fn read(source: &Source, expected: Size) -> Result<Bands, CaptureErro
     Ok(Bands { bands: (0..bands).map(band).collect() })
 }
 
-/// The next word of the header, with exactly one blank after it consumed.
+/// Returns the next word of the header, with exactly one blank after it consumed.
 fn next_word<'a>(bytes: &'a [u8], at: &mut usize) -> Option<&'a str> {
     let rest = bytes.get(*at..)?;
     let start = rest.iter().take(MAX_WORD).position(|b| !b.is_ascii_whitespace())?;

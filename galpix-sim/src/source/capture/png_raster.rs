@@ -54,12 +54,12 @@ pub(super) fn read(source: &Source, expected: Option<Size>) -> Result<Raster, Ca
 }
 
 impl Raster {
-    /// Channel `index` as raw numbers.
+    /// Returns the channel `index` as raw numbers.
     pub fn band(&self, index: usize) -> impl Iterator<Item = u16> {
         self.values.iter().skip(index).step_by(self.channels).copied()
     }
 
-    /// The red, green and blue of each pixel at 8 bits, grey repeated, alpha left out.
+    /// Returns the red, green and blue of each pixel at 8 bits, grey repeated, alpha left out.
     pub fn colours(&self) -> Vec<[u8; 3]> {
         let narrow = |v: u16| if self.white == 255 { v as u8 } else { ((u32::from(v) + 128) / 257) as u8 };
         let colour = |p: &[u16]| match *p {
@@ -71,7 +71,7 @@ impl Raster {
     }
 }
 
-/// Raw numbers of a grey map, 8 or 16 bits; RGB is read where its three channels are equal. One band.
+/// Returns raw numbers of a grey map, 8 or 16 bits; RGB is read where its three channels are equal. One band.
 pub(super) fn grey(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
     let raster = read(source, Some(expected))?;
     if raster.stored_bits < 8 {
@@ -115,8 +115,8 @@ pub(super) fn kitti_disparity(source: &Source, expected: Size) -> Result<Bands, 
 pub(super) fn kitti_flow(source: &Source, expected: Size) -> Result<Bands, CaptureError> {
     let raster = read(source, Some(expected))?;
     if raster.channels < 3 || raster.stored_bits != 16 {
-        let mend = "give a KITTI flow PNG, .flo, .npy or three-channel PFM";
-        return Err(source.fault("is not a 16-bit RGB picture, as KITTI's flows are", mend));
+        let hint = "give a KITTI flow PNG, .flo, .npy or three-channel PFM";
+        return Err(source.fault("is not a 16-bit RGB picture, as KITTI's flows are", hint));
     }
     let component = |index: usize| {
         let value = |p: &[u16]| if p[2] == 0 { f64::NAN } else { (f64::from(p[index]) - 32768.0) / 64.0 };

@@ -1,4 +1,4 @@
-//! Camera paths: Redwood `.log`, TUM, `transforms.json`, TartanAir, and one matrix a file.
+//! Camera paths: Redwood `.log`, TUM, `transforms.json`, TartanAir, and one matrix per file.
 //!
 //! Every layout gives camera-to-world transforms; here the camera's axes become x right, y down, z forward.
 
@@ -31,7 +31,7 @@ pub(super) struct Path3 {
     pub others: Vec<(f64, Pose)>,
     /// `fx fy cx cy` in pixels, sample (i, j) at the integer point (i, j).
     pub intrinsics: [f64; 4],
-    /// What to tell the user, if a pose was missing.
+    /// A note for the user, if a pose was missing.
     pub note: Option<String>,
 }
 
@@ -98,7 +98,7 @@ pub(super) fn read(camera: &Camera, folder: &Path) -> Result<Path3, CaptureError
     Ok(Path3 { now, others, intrinsics, note: note.map(str::to_owned) })
 }
 
-/// The poses that the motion is taken from, and a remark if they are not the two neighbours.
+/// Returns the poses that the motion is taken from, and a remark if they are not the two neighbours.
 fn choose(find: impl Fn(f64) -> Option<(f64, Pose)>) -> (Vec<(f64, Pose)>, Option<&'static str>) {
     let two = |a: f64, b: f64| Some(vec![find(a)?, find(b)?]);
     if let Some(both) = two(1.0, -1.0) {
@@ -126,7 +126,7 @@ fn intrinsics(camera: &Camera, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
     Some([fx, fy, cx - centre, cy - centre])
 }
 
-/// The camera's native axes in terms of x right, y down, z forward (columns are the images of those).
+/// Returns the camera's native axes in terms of x right, y down, z forward (columns are the images of those).
 const fn basis(axes: Axes) -> [[f64; 3]; 3] {
     match axes {
         Axes::Opencv => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
@@ -140,7 +140,7 @@ fn multiply(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// A pose from a 4x4 (or 3x4) camera-to-world matrix, row by row; errors say what is wrong.
+/// Returns a pose from a 4x4 (or 3x4) camera-to-world matrix, row by row; errors describe what is wrong.
 fn from_matrix(m: &[f64]) -> Result<Pose, String> {
     if m.len() != 12 && m.len() != 16 {
         return Err(format!("has {} numbers in a matrix, not 16", m.len()));
@@ -191,19 +191,19 @@ fn from_quaternion(n: &[f64; 7]) -> Result<Pose, String> {
     Ok(Pose { rotation, centre: [tx, ty, tz] })
 }
 
-/// The numbers of a line, or the word that is none.
+/// Returns the numbers of a line, or the word that is none.
 fn numbers(line: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| word.parse().map_err(|_| format!("has \"{word}\" where a number belongs"));
     line.split_whitespace().map(number).collect()
 }
 
-/// The lines that carry something, with their numbers counted from 1.
+/// Returns the lines that carry something, with their numbers counted from 1.
 fn meaningful(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let numbered = text.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     numbered.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'))
 }
 
-/// An error in a line of a file of poses.
+/// Returns an error in a line of a file of poses.
 fn in_line(source: &Source, line: usize, what: &str) -> CaptureError {
     source.fault(format!("line {line} {what}"), "correct or remove that pose")
 }
@@ -244,14 +244,14 @@ fn log(source: &Source) -> Result<Vec<Pose>, CaptureError> {
     all.chunks(5).map(pose).collect()
 }
 
-/// One matrix: 16 (or 12) numbers.
+/// Returns one matrix: 16 (or 12) numbers.
 fn matrix_file(source: &Source) -> Result<Pose, CaptureError> {
     numbers(source.text()?)
         .and_then(|matrix| from_matrix(&matrix))
         .map_err(|what| source.fault(what, "give a 4x4 camera-to-world matrix, or choose another pose"))
 }
 
-/// The poses of a `transforms.json` in the order of its list, and its intrinsics if it has all four.
+/// Returns the poses of a `transforms.json` in the order of its list, and its intrinsics if it has all four.
 fn transforms(source: &Source) -> Result<(Vec<Pose>, Option<[f64; 4]>), CaptureError> {
     let document: Value = serde_json::from_slice(&source.bytes).map_err(|e| source.damaged(e))?;
     let frames = document.get("frames").and_then(Value::as_array);
@@ -275,7 +275,7 @@ fn transforms(source: &Source) -> Result<(Vec<Pose>, Option<[f64; 4]>), CaptureE
     Ok((poses, own()))
 }
 
-/// `pattern` with its one `{}` or `{:06}` replaced by `number`; `None` without such a place.
+/// Returns `pattern` with its one `{}` or `{:06}` replaced by `number`; `None` without such a place.
 fn numbered(pattern: &str, number: u32) -> Option<String> {
     let (before, rest) = pattern.split_once('{')?;
     let (format, after) = rest.split_once('}')?;

@@ -1,4 +1,4 @@
-//! Maps of one number a pixel and flows of two, whatever file they are in.
+//! Maps of one number per pixel and flows of two, whatever file they are in.
 
 use super::error::CaptureError;
 use super::exr_planes::Planes;
@@ -6,7 +6,7 @@ use super::manifest::MapFormat;
 use super::source::{Bands, Format, Size, Source};
 use super::{dpt, flo, npy, pfm, png_raster};
 
-/// Reads one raw number for each pixel; NaN where the format itself says "unknown".
+/// Reads one raw number for each pixel; NaN where the format has "unknown".
 ///
 /// `channel` is for EXR only, and may be left out where the file has one channel.
 pub(super) fn numbers(
@@ -53,8 +53,8 @@ pub(super) fn flow(source: &Source, size: Size) -> Result<Vec<Option<[f64; 2]>>,
         Format::Npy => npy::read(source, size)?,
         Format::Pfm => pfm::read(source, size)?,
         Format::Jpeg | Format::Exr => {
-            let mend = "give a .flo, a KITTI 16-bit PNG, a .npy or a three-channel PFM (or kind = \"planes\" for EXR)";
-            return Err(source.fault("is no optical flow", mend));
+            let hint = "give a .flo, a KITTI 16-bit PNG, a .npy or a three-channel PFM (or kind = \"planes\" for EXR)";
+            return Err(source.fault("is no optical flow", hint));
         }
     };
     let [u, v, ..] = &bands[..] else {

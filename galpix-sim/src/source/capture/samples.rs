@@ -4,7 +4,7 @@ use super::Census;
 use super::camera::{Distance, Track};
 use super::manifest::Depth;
 use crate::picture::Picture;
-use crate::update::{DepthKind, Known, Sample, Update, Wings};
+use crate::update::{DepthKind, Known, Margin, Sample, Update};
 
 /// The nearest distance that can be stored is this part of the nearest that is seen: room to approach.
 const ROOM: f64 = 0.5;
@@ -19,7 +19,7 @@ pub(super) struct Unit {
 }
 
 impl Unit {
-    /// That of an update.
+    /// Returns that of an update.
     pub fn of(depth: &Depth, distances: &Option<Vec<Distance>>, motion: &[Option<Track>]) -> Self {
         let (kind, nearest) = match (depth, distances) {
             (Depth::Z(_), Some(distances)) => (DepthKind::Z, ROOM * extreme(distances, f64::INFINITY, f64::min)),
@@ -68,7 +68,14 @@ pub(super) fn assemble(
         known.unwrap_or(Sample { colour, known: Known::ColourOnly, ..Sample::default() })
     });
     let samples = samples.collect();
-    Update { width: picture.width, height: picture.height, wings: Wings::default(), samples, depth_kind, overlay: None }
+    Update {
+        width: picture.width,
+        height: picture.height,
+        margin: Margin::default(),
+        samples,
+        depth_kind,
+        overlay: None,
+    }
 }
 
 fn extreme(distances: &[Distance], start: f64, pick: fn(f64, f64) -> f64) -> f64 {

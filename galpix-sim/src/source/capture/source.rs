@@ -24,12 +24,12 @@ pub(super) struct Size {
 }
 
 impl Size {
-    /// Number of cells.
+    /// Returns the number of cells.
     pub const fn cells(self) -> usize {
         self.width * self.height
     }
 
-    /// The cells as (column, row), row by row.
+    /// Returns the cells as (column, row), row by row.
     pub fn positions(self) -> impl Iterator<Item = (usize, usize)> {
         (0..self.height).flat_map(move |y| (0..self.width).map(move |x| (x, y)))
     }
@@ -42,7 +42,7 @@ pub(super) struct Bands {
     pub bands: Vec<Vec<f64>>,
 }
 
-/// The file formats of the importers, told apart by their first bytes.
+/// The file formats of the importers, recognised by their first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Format {
     Png,
@@ -83,23 +83,23 @@ impl Source {
         Ok(Self { path: path.to_path_buf(), bytes })
     }
 
-    /// An error about this file.
-    pub fn fault(&self, what: impl AsRef<str>, mend: impl AsRef<str>) -> CaptureError {
-        CaptureError::new(&self.path, what, mend)
+    /// Returns an error about this file.
+    pub fn fault(&self, what: impl AsRef<str>, hint: impl AsRef<str>) -> CaptureError {
+        CaptureError::new(&self.path, what, hint)
     }
 
-    /// An error about a file that ends too early or is damaged; `why` names the place.
+    /// Returns an error about a file that ends too early or is damaged; `why` names the place.
     pub fn damaged(&self, why: impl std::fmt::Display) -> CaptureError {
         self.fault(format!("is truncated or damaged ({why})"), COPY_AGAIN)
     }
 
-    /// The file as text.
+    /// Returns the file as text.
     pub fn text(&self) -> Result<&str, CaptureError> {
         std::str::from_utf8(&self.bytes)
             .map_err(|e| self.fault(format!("is not a text file ({e})"), "save it as UTF-8 text"))
     }
 
-    /// The format, from the first bytes; the name's ending does not matter.
+    /// Returns the format, from the first bytes; the name's ending does not matter.
     pub fn format(&self) -> Result<Format, CaptureError> {
         const TAGS: [(&[u8], Format); 7] = [
             (b"\x89PNG\r\n\x1a\n", Format::Png),
@@ -152,7 +152,7 @@ impl Source {
     }
 }
 
-/// `N` consecutive bytes at `start`, if there are so many.
+/// Returns `N` consecutive bytes at `start`, if there are so many.
 pub(super) fn array<const N: usize>(bytes: &[u8], start: usize) -> Option<[u8; N]> {
     bytes.get(start..start.checked_add(N)?)?.try_into().ok()
 }

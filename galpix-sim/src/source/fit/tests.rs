@@ -4,7 +4,7 @@ use galpix_link::panel::{Lcd, Oled, Panel};
 
 use super::*;
 use crate::certificate::Certificate;
-use crate::update::{DepthKind, Known, Wings};
+use crate::update::{self, DepthKind, Known};
 
 /// Calls `look` with every galpixel that is left after `frames` frames of a panel: the cell that it entered at, and its
 /// place.
@@ -23,7 +23,7 @@ fn after<P: Panel>(galpixels: &[Galpixel], frames: u32, mut look: impl FnMut([us
     let scratch = Scratch { winners: &mut winners, edges: &mut edges };
     let mut controller = Controller::new(front, back, scratch).unwrap();
     let settings = Settings::for_depth(u32::from(P::RECORD.depth().bits));
-    assert_eq!(settings.fill_mode, FillMode::Extend, "a rung that keeps a winner map");
+    assert_eq!(settings.fill_mode, FillMode::Extend, "a fill mode that keeps a winner map");
     let mut origins: Vec<Option<usize>> = (0..P::CELLS).map(Some).collect();
     for _ in 0..frames {
         controller.step(&settings);
@@ -44,7 +44,7 @@ fn after<P: Panel>(galpixels: &[Galpixel], frames: u32, mut look: impl FnMut([us
 
 #[test]
 fn the_source_covers_the_panel_around_its_centre() {
-    // Wider than the panel: columns are cropped, 1.5 pixels a cell in both directions.
+    // Wider than the panel: columns are cropped, 1.5 pixels per cell in both directions.
     let wide = Fit::new([192, 96], [64, 64]).unwrap();
     assert_eq!(wide.scale(), 1.5);
     assert_eq!(wide.centre(0, 0), [95.5 - 31.5 * 1.5, 47.5 - 31.5 * 1.5]);
@@ -53,7 +53,7 @@ fn the_source_covers_the_panel_around_its_centre() {
     assert_eq!(wide.nearest(63, 63), [143, 95]);
     let same = Fit::new([7, 5], [7, 5]).unwrap();
     assert_eq!((same.centre(3, 4), same.nearest(3, 4)), ([3.0, 4.0], [3, 4]));
-    // Two pixels a cell: the centre lies between two of them.
+    // Two pixels per cell: the centre lies between two of them.
     let half = Fit::new([256, 128], [128, 64]).unwrap();
     assert_eq!((half.centre(5, 6), half.nearest(5, 6)), ([10.5, 12.5], [10, 12]));
     assert_eq!(Fit::new([0, 5], [7, 5]), None);
@@ -82,7 +82,7 @@ fn every_cell_has_a_pixel_of_its_own_within_half_a_pixel() {
 }
 
 /// Samples that tell their place by their colour, and move by `velocity`.
-fn marked(width: usize, height: usize, wings: Wings, velocity: [f64; 3]) -> Update {
+fn marked(width: usize, height: usize, margin: update::Margin, velocity: [f64; 3]) -> Update {
     let cell = |index: usize| Sample {
         colour: [(index % width) as u8, (index / width) as u8, 0],
         velocity,
@@ -91,12 +91,12 @@ fn marked(width: usize, height: usize, wings: Wings, velocity: [f64; 3]) -> Upda
         ..Sample::default()
     };
     let samples = (0..width * height).map(cell).collect();
-    Update { width, height, wings, samples, depth_kind: DepthKind::Z, overlay: None }
+    Update { width, height, margin, samples, depth_kind: DepthKind::Z, overlay: None }
 }
 
 #[test]
-fn wings_are_left_out_and_unknown_motion_leaves_the_colour() {
-    let mut marked = marked(20, 12, Wings { left: 3, right: 1, top: 2, bottom: 2 }, [2.0, -1.0, 0.25]);
+fn the_margin_is_left_out_and_unknown_motion_leaves_the_colour() {
+    let mut marked = marked(20, 12, update::Margin { left: 3, right: 1, top: 2, bottom: 2 }, [2.0, -1.0, 0.25]);
     marked.samples[(2 + 2) * 20 + 3].known = Known::ColourOnly;
     // The display has 16 x 8 pixels, two a cell.
     let galpixels = update(&marked, 8, 4);
@@ -112,7 +112,7 @@ fn wings_are_left_out_and_unknown_motion_leaves_the_colour() {
 
 #[test]
 fn a_coarse_source_becomes_squares_of_cells() {
-    let galpixels = update(&marked(4, 4, Wings::default(), [1.0, 0.0, 0.0]), 8, 8);
+    let galpixels = update(&marked(4, 4, update::Margin::default(), [1.0, 0.0, 0.0]), 8, 8);
     for (index, galpixel) in galpixels.iter().enumerate() {
         assert_eq!(galpixel.colour, [(index % 8 / 2) as u8, (index / 8 / 2) as u8, 0]);
         assert_eq!(galpixel.velocity[0], 2);
@@ -126,8 +126,8 @@ fn a_scene_of_the_panels_size_is_its_own_update() {
     assert_eq!(scene(drift, 3.0, width, height), update(&crate::source::scene::update(drift, 3.0), width, height));
 }
 
-/// The largest error of the places of a scene's galpixels after 16 frames of a panel, in cells, what is certified, and
-/// the galpixels left.
+/// Returns the largest error of the places of a scene's galpixels after 16 frames of a panel, in cells, what is
+/// certified, and the galpixels left.
 fn worst<P: Panel>(name: &str) -> (f64, f64, usize) {
     const FRAMES: u32 = 16;
     let source = crate::source::scene::find(name).unwrap();

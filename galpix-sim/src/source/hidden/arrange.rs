@@ -4,7 +4,7 @@ use super::offered::empty;
 use super::{Arrangement, Carried, Culling, Layer, surfaces};
 use crate::update::{Known, Sample, Update};
 
-/// A first layer and what is behind it, put into layers.
+/// Returns a first layer and what is behind it, put into layers.
 pub(super) fn arranged(
     update: &Update,
     mut layers: Vec<Layer>,
@@ -30,7 +30,7 @@ pub(super) fn arranged(
                 std::mem::swap(&mut of_base[cell], &mut of_layer[cell]);
             }
         }
-        (Arrangement::Farther, Some(Layer::Anchored { .. })) => {
+        (Arrangement::Farther, Some(Layer::Stationary { .. })) => {
             // What lies around its edges covers only a part of a surface; the whole of it leaves.
             let leaves = self::covering(&layers, cells);
             let mut covers = empty(update);
@@ -75,7 +75,7 @@ fn count(layers: &[Layer]) -> u32 {
     layers.iter().map(known).sum()
 }
 
-/// Which cells have something behind what is seen.
+/// Returns which cells have something behind what is seen.
 fn covering(layers: &[Layer], cells: usize) -> Vec<bool> {
     let mut covering = vec![false; cells];
     for layer in layers {

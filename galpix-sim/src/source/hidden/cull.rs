@@ -21,18 +21,18 @@ pub struct Culling {
 }
 
 impl Culling {
-    /// Whether what is hidden in a cell may be uncovered.
+    /// Returns whether what is hidden in a cell may be uncovered.
     #[must_use]
     pub fn covers(&self, cell: usize) -> bool {
         disocclusion::covered(&self.extents, cell as u32)
     }
 }
 
-/// The disocclusion map of an update for `frames` frames; more than [`Reach::MOST_FRAMES`] count as that.
+/// Returns the disocclusion map of an update for `frames` frames; more than [`Reach::MOST_FRAMES`] count as that.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn culling(update: &Update, format: Dynamic, frames: u32) -> Result<Culling, EngineError> {
-    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
+    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];
     let grid = grid(update, &mut starts)?;
     let mut memory = vec![0; Galpixmap::words(&grid, format)];
     let mut map = Galpixmap::new(grid, format, &mut memory)?;

@@ -44,7 +44,7 @@ pub enum Kind {
         /// How far behind an edge it reaches, cells.
         radius: u32,
     },
-    /// Every surface, whole, in a layer of its own: a bound, no way to ship.
+    /// Every surface, whole, in a layer of its own: a bound, no strategy to ship.
     Unlimited,
 }
 
@@ -60,9 +60,9 @@ pub enum Arrangement {
     Farther,
 }
 
-/// What is handed over beside the update.
+/// Which hidden samples are handed over with an update.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Way {
+pub struct Strategy {
     /// Where the samples come from.
     pub kind: Kind,
     /// How they are put into layers; each of more than two surfaces has a layer of its own.
@@ -72,11 +72,11 @@ pub struct Way {
     pub culled: bool,
 }
 
-impl Way {
+impl Strategy {
     /// The first layer alone.
     pub const ONE: Self = Self { kind: Kind::None, arrangement: Arrangement::Farther, culled: false };
 
-    /// The name in tables and files.
+    /// Returns the name in tables and files.
     #[must_use]
     pub fn name(self) -> String {
         let kind = match self.kind {
@@ -99,7 +99,7 @@ impl Way {
 pub struct Carried {
     /// Layer 0.
     pub base: Update,
-    /// The layers beside it.
+    /// The hidden layers.
     pub layers: Vec<Layer>,
     /// Samples that the source has behind its first layer.
     pub offered: u32,
@@ -115,8 +115,9 @@ pub struct Carried {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HiddenReport {
     /// What was handed over.
-    pub way: String,
-    /// Layers beside the update.
+    #[serde(rename = "way")]
+    pub strategy: String,
+    /// Hidden layers.
     pub layers: usize,
     /// Samples that the source has behind its first layer.
     pub offered: u32,
@@ -129,28 +130,28 @@ pub struct HiddenReport {
 impl HiddenReport {
     /// Of what was handed over, and of the run with it.
     #[must_use]
-    pub fn of(way: Way, carried: &Carried, ran: &Ran) -> Self {
+    pub fn of(strategy: Strategy, carried: &Carried, ran: &Ran) -> Self {
         let Carried { layers, offered, kept, hidden, .. } = carried;
         let used = ran.used.iter().zip(hidden).filter(|&(&used, &hidden)| used && hidden).count() as u32;
-        Self { way: way.name(), layers: layers.len(), offered: *offered, kept: *kept, used }
+        Self { strategy: strategy.name(), layers: layers.len(), offered: *offered, kept: *kept, used }
     }
 }
 
 impl Carried {
-    /// Whether the first layer covered this sample.
+    /// Returns whether the first layer covered this sample.
     #[must_use]
     pub fn is_hidden(&self, origin: u32) -> bool {
         self.hidden.get(origin as usize).copied().unwrap_or(false)
     }
 
-    /// The cell of the update whose sample this one is, if it is one of the first layer's.
+    /// Returns the cell of the update whose sample this one is, if it is one of the first layer's.
     #[must_use]
     pub fn first(&self, origin: u32) -> Option<usize> {
         (origin != NO_ORIGIN && !self.is_hidden(origin)).then(|| origin as usize % self.base.samples.len().max(1))
     }
 }
 
-/// Whether a source knows anything of this kind.
+/// Returns whether a source knows anything of this kind.
 #[must_use]
 pub fn has(source: &Source, kind: Kind) -> bool {
     match (source, kind) {
@@ -160,15 +161,21 @@ pub fn has(source: &Source, kind: Kind) -> bool {
     }
 }
 
-/// What a source hands over in a way, for `frames` frames until the next update, quantised to a format: the first layer
-/// alone if it has nothing of this kind.
+/// Returns what a source hands over by a strategy, for `frames` frames until the next update, quantised to a format:
+/// the first layer alone if it has nothing of this kind.
 ///
 /// *Errors:* an update that cannot be laid out.
-pub fn carry(source: &Source, update: &Update, way: Way, format: Dynamic, frames: u32) -> Result<Carried, EngineError> {
-    let layers = offered::offered(source, way.kind)?;
-    let culling = if way.culled && !layers.is_empty() { Some(culling(update, format, frames)?) } else { None };
-    Ok(match way.kind {
+pub fn carry(
+    source: &Source,
+    update: &Update,
+    strategy: Strategy,
+    format: Dynamic,
+    frames: u32,
+) -> Result<Carried, EngineError> {
+    let layers = offered::offered(source, strategy.kind)?;
+    let culling = if strategy.culled && !layers.is_empty() { Some(culling(update, format, frames)?) } else { None };
+    Ok(match strategy.kind {
         Kind::Unlimited if !layers.is_empty() => arrange::unlimited(update, layers, culling),
-        _ => arrange::arranged(update, layers, way.arrangement, culling),
+        _ => arrange::arranged(update, layers, strategy.arrangement, culling),
     })
 }

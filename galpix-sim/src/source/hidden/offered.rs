@@ -3,12 +3,12 @@
 use super::{Kind, Layer};
 use crate::engine::EngineError;
 use crate::source::Source;
+use crate::source::ddoc::{self, distortion};
 use crate::source::scene::{self, Peel, Scene};
-use crate::study::ddoc::{self, distortion};
 use crate::update::{Known, Sample, Update};
 
-/// What a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing of this
-/// kind.
+/// Returns what a source has behind its first layer, or all that it has if that is unlimited; nothing if it has nothing
+/// of this kind.
 ///
 /// *Errors:* a scene that is too large for a map.
 pub(super) fn offered(source: &Source, kind: Kind) -> Result<Vec<Layer>, EngineError> {
@@ -27,7 +27,7 @@ pub(super) fn offered(source: &Source, kind: Kind) -> Result<Vec<Layer>, EngineE
     Ok(layers.into_iter().map(Layer::Moving).collect())
 }
 
-/// What a DDOC has of a scene that the plain picture does not show.
+/// Returns what a DDOC has of a scene that the plain picture does not show.
 fn around_edges(scene: &dyn Scene, radius: u32) -> Result<Layer, EngineError> {
     let settings = galpix_core::ddoc::Settings { radius, ..distortion::settings() };
     let (samples, _) = ddoc::hidden::hidden(scene, &settings)?;
@@ -40,10 +40,10 @@ fn around_edges(scene: &dyn Scene, radius: u32) -> Result<Layer, EngineError> {
         displacements[cell] = hidden.displacement();
         offsets[cell] = hidden.offset();
     }
-    Ok(Layer::Anchored { update, displacements, offsets })
+    Ok(Layer::Stationary { update, displacements, offsets })
 }
 
-/// A layer without the samples that lie less than a separation behind those of the first.
+/// Returns a layer without the samples that lie less than a separation behind those of the first.
 fn apart(first: &Update, second: &Update, separation: f64) -> Update {
     let keep = |(first, second): (&Sample, &Sample)| {
         let behind = first.known != Known::Motion || second.depth >= first.depth + separation;
@@ -52,7 +52,7 @@ fn apart(first: &Update, second: &Update, separation: f64) -> Update {
     Update { samples: first.samples.iter().zip(&second.samples).map(keep).collect(), ..second.clone() }
 }
 
-/// An update over the same cells with nothing in it.
+/// Returns an update over the same cells with nothing in it.
 pub(super) fn empty(update: &Update) -> Update {
     let nothing = Sample { known: Known::ColourOnly, ..Sample::default() };
     Update { samples: vec![nothing; update.samples.len()], ..update.clone() }

@@ -3,8 +3,8 @@
 use super::SEPARATION;
 use crate::update::{Known, Update};
 
-/// The cells that cover something, of all surfaces that leave some of what they cover. Such a surface goes into a layer
-/// of its own as a whole, so that no crack opens within it.
+/// Returns the cells that cover something, of all surfaces that leave some of what they cover. Such a surface goes into
+/// a layer of its own as a whole, so that no crack opens within it.
 pub(super) fn that_leave(update: &Update, covering: &[bool], leaves: &[bool]) -> Vec<usize> {
     let mut seen = vec![false; covering.len()];
     let mut all = Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn that_leave(update: &Update, covering: &[bool], leaves: &[bool]) ->
     all
 }
 
-/// Whether two neighbours belong together.
+/// Returns whether two neighbours belong together.
 fn one_surface(update: &Update, a: usize, b: usize) -> bool {
     let (a, b) = (&update.samples[a], &update.samples[b]);
     let known = a.known == Known::Motion && b.known == Known::Motion;
@@ -52,11 +52,11 @@ fn neighbours(cell: usize, width: usize, cells: usize) -> impl Iterator<Item = u
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::update::{DepthKind, Sample, Wings};
+    use crate::update::{DepthKind, Margin, Sample};
 
     #[test]
     fn a_surface_that_leaves_nothing_stays() {
-        // Two rows of `a`, one cell of which leaves something; `b` at another depth and `c` of another tag beside it.
+        // Two rows of `a`, one cell of which leaves something; `b` at another depth and `c` of another tag next to it.
         let art = ["aab.", "aac."];
         let sample = |c: char| match c {
             'a' => Sample { depth: 0.2, tag: 1, ..Sample::default() },
@@ -65,7 +65,7 @@ mod tests {
         };
         let samples = art.iter().flat_map(|row| row.chars().map(sample)).collect();
         let update =
-            Update { width: 4, height: 2, wings: Wings::default(), samples, depth_kind: DepthKind::Z, overlay: None };
+            Update { width: 4, height: 2, margin: Margin::default(), samples, depth_kind: DepthKind::Z, overlay: None };
         let covering = [true, true, true, false, true, true, true, false];
         let leaving = |cell: usize| {
             let leaves: Vec<bool> = (0..8).map(|other| other == cell).collect();

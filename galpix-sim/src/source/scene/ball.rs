@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, band, cell, cover, dot, gradient, hex, length, lit, mix, noise, rect, stripes};
 
 /// Scene `ball`.
@@ -45,7 +45,7 @@ impl Scene for Ball {
                 ball,
             )
         };
-        const SURFACES: &[&dyn Surface] = &[&Card::still(0.85, endless, park), &BALL];
+        const SURFACES: &[&dyn Surface] = &[&Card::still(0.85, everywhere, park), &BALL];
         SURFACES
     }
 }

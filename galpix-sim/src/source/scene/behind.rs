@@ -34,8 +34,8 @@ const EMPTY: Sample = Sample {
     tag: 0,
 };
 
-/// The layers behind the update of a scene at time `t`, over the same cells, from near to far; without those that are
-/// empty.
+/// Returns the layers behind the update of a scene at time `t`, over the same cells, from near to far; without those
+/// that are empty.
 #[must_use]
 pub fn behind(scene: &dyn Scene, t: f64, peel: &Peel) -> Vec<Update> {
     let cells = cells(scene, |place| peeled(scene.surfaces(), place, t, peel));
@@ -44,31 +44,31 @@ pub fn behind(scene: &dyn Scene, t: f64, peel: &Peel) -> Vec<Update> {
     (0..deepest).map(|number| update_of(scene, layer(number))).collect()
 }
 
-/// What there is at each place of the display, row by row, wings included.
+/// What there is at each place of the display, row by row, margin included.
 fn cells<T: Send>(scene: &dyn Scene, at: impl Fn([f64; 2]) -> T + Sync) -> Vec<T> {
-    let wings = scene.wings();
-    let columns = 0..wings.left + scene.width() + wings.right;
-    let rows = 0..wings.top + scene.height() + wings.bottom;
-    let place = |x: usize, y: usize| [x as f64 - wings.left as f64, y as f64 - wings.top as f64];
+    let margin = scene.margin();
+    let columns = 0..margin.left + scene.width() + margin.right;
+    let rows = 0..margin.top + scene.height() + margin.bottom;
+    let place = |x: usize, y: usize| [x as f64 - margin.left as f64, y as f64 - margin.top as f64];
     let at = &at;
     rows.into_par_iter().flat_map_iter(|y| columns.clone().map(move |x| at(place(x, y)))).collect()
 }
 
-/// Samples of all cells as an update.
+/// Returns the samples of all cells as an update.
 fn update_of(scene: &dyn Scene, samples: Vec<Sample>) -> Update {
-    let wings = scene.wings();
+    let margin = scene.margin();
     Update {
-        width: wings.left + scene.width() + wings.right,
-        height: wings.top + scene.height() + wings.bottom,
-        wings,
+        width: margin.left + scene.width() + margin.right,
+        height: margin.top + scene.height() + margin.bottom,
+        margin,
         samples,
         depth_kind: scene.depth_kind(),
         overlay: None,
     }
 }
 
-/// Each surface of a scene at time `t` by itself, as if no other one were in front of it: the layers that nothing is
-/// missing in.
+/// Returns each surface of a scene at time `t` by itself, as if no other one were in front of it: the layers that
+/// nothing is missing in.
 #[must_use]
 pub fn each(scene: &dyn Scene, t: f64) -> Vec<Update> {
     let seen_alone = |index: usize| {
@@ -93,7 +93,7 @@ fn peeled(surfaces: &[&dyn Surface], [x, y]: [f64; 2], t: f64, peel: &Peel) -> V
     separate.take(peel.layers).map(|(index, hit)| seen(surfaces[index], index, &hit, t)).collect()
 }
 
-/// All surfaces at a place of the display in order of depth; of two at the same depth the earlier one first.
+/// Returns all surfaces at a place of the display in order of depth; of two at the same depth the earlier one first.
 fn all(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64, backs: bool) -> Vec<(usize, Hit)> {
     let mut hits: Vec<(usize, Hit)> = Vec::new();
     for (index, surface) in surfaces.iter().enumerate() {
@@ -106,7 +106,7 @@ fn all(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64, backs: bool) -> Vec<(u
 
 #[cfg(test)]
 mod tests {
-    use super::super::surface::{Card, endless};
+    use super::super::surface::{Card, everywhere};
     use super::super::{all as scenes, find, update};
     use super::*;
 
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn layers_are_apart_by_the_separation_and_in_order() {
-        let cards = [0.5, 0.1, 0.55, 0.9, 0.5].map(|depth| Card::still(depth, endless, paint));
+        let cards = [0.5, 0.1, 0.55, 0.9, 0.5].map(|depth| Card::still(depth, everywhere, paint));
         let surfaces: Vec<&dyn Surface> = cards.iter().map(|card| card as &dyn Surface).collect();
         let depths = |layers, separation| {
             let peel = Peel { layers, separation, backs: true };
@@ -138,7 +138,7 @@ mod tests {
                 let layers = behind(*scene, 0.0, &Peel { layers: 16, separation: 1.0 / 64.0, backs });
                 let mut before = first.clone();
                 for layer in &layers {
-                    assert_eq!((layer.width, layer.height, layer.wings), (first.width, first.height, first.wings));
+                    assert_eq!((layer.width, layer.height, layer.margin), (first.width, first.height, first.margin));
                     assert!(layer.samples.iter().any(|sample| sample.known == Known::Motion), "{}", scene.name());
                     for (sample, before) in layer.samples.iter().zip(&before.samples) {
                         if sample.known == Known::Motion {

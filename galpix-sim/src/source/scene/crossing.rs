@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{
     Rgb, band, bricks, cell, checks, cover, dot, gradient, hash, hex, length, lit, mix, noise, rect, sign, stripes,
 };
@@ -30,7 +30,7 @@ impl Scene for Crossing {
     fn surfaces(&self) -> &[&dyn Surface] {
         const BUS: Card = Card::new([Path::new(41.3, 0.9, 0.26), Path::new(107.2, 0.0, 0.0)], 0.2, vehicle, bus);
         const TRAM: Card = Card::new([Path::new(158.6, -6.6, 0.24), Path::new(86.4, 0.0, 0.0)], 0.45, carriage, tram);
-        const SURFACES: &[&dyn Surface] = &[&Card::still(0.8, endless, street), &TRAM, &BUS];
+        const SURFACES: &[&dyn Surface] = &[&Card::still(0.8, everywhere, street), &TRAM, &BUS];
         SURFACES
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, checks, cover, dot, gradient, hex, length, lit, mix, noise, sign, stripes};
 
 /// Scene `disc`.
@@ -30,12 +30,12 @@ impl Scene for Disc {
             angle: Path::new(0.2, 0.04, 0.0),
             ..Card::new([Path::still(95.6), Path::still(71.3)], 0.3, |u, v| length(u, v) < RADIUS, painted)
         };
-        const SURFACES: &[&dyn Surface] = &[&Card::still(0.7, endless, table), &TURNING];
+        const SURFACES: &[&dyn Surface] = &[&Card::still(0.7, everywhere, table), &TURNING];
         SURFACES
     }
 }
 
-/// Pixels; the rim runs at 2.4 pixels a frame.
+/// Pixels; the rim runs at 2.4 pixels per frame.
 const RADIUS: f64 = 61.0;
 
 fn table(u: f64, v: f64) -> Rgb {

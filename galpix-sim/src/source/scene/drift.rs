@@ -1,8 +1,8 @@
-//! A poster that drifts by small fractions of a pixel a frame.
+//! A poster that drifts by small fractions of a pixel per frame.
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, bricks, cell, cover, dot, hash, hex, length, mix, noise, rect, sign, stripes};
 
 /// Scene `drift`.
@@ -27,7 +27,7 @@ impl Scene for Drift {
 
     fn surfaces(&self) -> &[&dyn Surface] {
         const SURFACES: &[&dyn Surface] =
-            &[&Card::new([Path::new(95.7, 0.07, 0.0), Path::new(71.6, 0.03, 0.0)], 0.5, endless, poster)];
+            &[&Card::new([Path::new(95.7, 0.07, 0.0), Path::new(71.6, 0.03, 0.0)], 0.5, everywhere, poster)];
         SURFACES
     }
 }

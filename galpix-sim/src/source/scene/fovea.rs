@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Shape, Surface, endless};
+use super::surface::{Card, Shape, Surface, everywhere};
 use super::texture::{
     Rgb, band, bricks, cell, checks, cover, dot, gradient, hash, hex, length, lit, mix, noise, rect, sign, stripes,
 };
@@ -38,7 +38,7 @@ impl Scene for Fovea {
     fn surfaces(&self) -> &[&dyn Surface] {
         // Places end in an odd fraction, so that no pixel lies exactly on an edge.
         const SURFACES: &[&dyn Surface] = &[
-            &Card::still(0.85, endless, market),
+            &Card::still(0.85, everywhere, market),
             &card([38.3, 46.7], [6.4, 1.2], 0.42, |u, v| length(u, v) < 21.0, red),
             &card([214.6, 52.4], [-5.6, 2.1], 0.46, |u, v| length(u, v) < 18.0, blue),
             &card([121.4, 31.3], [4.3, -0.9], 0.55, |u, v| u.abs() + 0.8 * v.abs() < 17.0, kite),

@@ -2,10 +2,10 @@
 
 use super::Scene;
 use super::jet::{Jet, Path};
-use super::surface::{Card, Hit, Paint, Point, Shape, Surface, endless};
+use super::surface::{Card, Hit, Paint, Point, Shape, Surface, everywhere};
 use super::texture::{Rgb, cover, dot, gradient, hex, length, lit, mix, noise, rect, sign, stripes};
 use crate::overlay::Overlay;
-use crate::update::Wings;
+use crate::update::Margin;
 
 /// Scene `hud`.
 pub struct Hud;
@@ -22,8 +22,8 @@ impl Scene for Hud {
         "drones circle over a sea that rushes past, under pinned instruments: lines of a pixel that must not smear"
     }
 
-    fn wings(&self) -> Wings {
-        Wings { left: 0, right: 76, top: 8, bottom: 2 }
+    fn margin(&self) -> Margin {
+        Margin { left: 0, right: 76, top: 8, bottom: 2 }
     }
 
     fn frames(&self) -> u32 {
@@ -36,7 +36,7 @@ impl Scene for Hud {
 
     fn surfaces(&self) -> &[&dyn Surface] {
         const SURFACES: &[&dyn Surface] = &[
-            &Card::new(WAY, 0.9, endless, sea),
+            &Card::new(WAY, 0.9, everywhere, sea),
             &Rider {
                 centre: [61.3, 52.4],
                 radius: [26.0, 17.0],
@@ -189,7 +189,7 @@ fn instruments(x: usize, y: usize) -> Option<[u8; 3]> {
     number(i - 18, j - 8, [1, 0, 9, 4, 7]).or_else(|| number(i - 18, j - 128, [3, 6, 5, 2, 8]))
 }
 
-/// Digits of two pixels a unit, four units apart, in a black box.
+/// Digits of two pixels per unit, four units apart, in a black box.
 fn number(x: i32, y: i32, digits: [usize; 5]) -> Option<[u8; 3]> {
     if !(-2..40).contains(&x) || !(-2..12).contains(&y) {
         return None;

@@ -19,7 +19,7 @@ pub struct Jet {
 }
 
 impl Jet {
-    /// The running time `t` (frames): it advances by one a frame.
+    /// The running time `t` (frames): it advances by one per frame.
     #[must_use]
     pub const fn time(t: f64) -> Self {
         Self { value: t, velocity: 1.0, acceleration: 0.0 }

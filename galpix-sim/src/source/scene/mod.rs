@@ -30,7 +30,7 @@ pub use behind::{Peel, behind, each};
 
 use crate::overlay::Overlay;
 use crate::picture::Picture;
-use crate::update::{DepthKind, Known, Sample, Update, Wings};
+use crate::update::{DepthKind, Known, Margin, Sample, Update};
 use jet::Jet;
 use rayon::prelude::*;
 use surface::{Hit, Surface};
@@ -38,48 +38,50 @@ use texture::{Rgb, round};
 
 /// A world with exact truth. Positions are display pixels, times are frames after the update.
 pub trait Scene: Sync {
-    /// What it is called on the command line.
+    /// Returns what it is called on the command line.
     fn name(&self) -> &'static str;
 
-    /// One line: what it shows and what it stresses.
+    /// Returns one line: what it shows and what it stresses.
     fn about(&self) -> &'static str;
 
-    /// Columns of the display.
+    /// Returns the columns of the display.
     fn width(&self) -> usize {
         192
     }
 
-    /// Rows of the display.
+    /// Returns the rows of the display.
     fn height(&self) -> usize {
         144
     }
 
-    /// What an update renders beyond the display.
-    fn wings(&self) -> Wings {
-        Wings::default()
+    /// Returns what an update renders beyond the display.
+    fn margin(&self) -> Margin {
+        Margin::default()
     }
 
-    /// How many frames it is meant to be extrapolated from the update at t = 0.
+    /// Returns how many frames it is meant to be extrapolated from the update at t = 0.
     fn frames(&self) -> u32;
 
-    /// Whether every visible point moves exactly by `r + v t + a t² / 2` in x and y, so that second order knows it all.
+    /// Returns whether every visible point moves exactly by `r + v t + a t² / 2` in x and y, so that second order knows
+    /// it all.
     fn second_order(&self) -> bool;
 
-    /// How its depths came about.
+    /// Returns how its depths came about.
     fn depth_kind(&self) -> DepthKind {
         DepthKind::Z
     }
 
-    /// What is pinned over the picture and never moves: of the display's size.
+    /// Returns what is pinned over the picture and never moves: of the display's size.
     fn overlay(&self) -> Option<Overlay> {
         None
     }
 
-    /// What the world is built of. Surface `i` has the tag `i + 1`; of two at the same depth the earlier one is seen.
+    /// Returns what the world is built of. Surface `i` has the tag `i + 1`; of two at the same depth the earlier one is
+    /// seen.
     fn surfaces(&self) -> &[&dyn Surface];
 
-    /// The surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is, the world
-    /// is black, still and infinitely far.
+    /// Returns the surface point seen at (`x`, `y`) at time `t`, with its motion there and then. Where no surface is,
+    /// the world is black, still and infinitely far.
     fn sample(&self, x: f64, y: f64, t: f64) -> Sample {
         let Some((index, hit)) = nearest(self.surfaces(), x, y, t) else {
             return Sample { depth: 1.0, ..Sample::default() };
@@ -87,8 +89,8 @@ pub trait Scene: Sync {
         seen(self.surfaces()[index], index, &hit, t)
     }
 
-    /// Where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or not: x, y
-    /// and normalised depth.
+    /// Returns where the surface point that is seen at (`x`, `y`) at time `t0` is at time `t`, be it visible then or
+    /// not: x, y and normalised depth.
     fn track(&self, x: f64, y: f64, t0: f64, t: f64) -> [f64; 3] {
         match nearest(self.surfaces(), x, y, t0) {
             Some((index, hit)) => self.surfaces()[index].place(hit.point, Jet::constant(t)).map(|place| place.value),
@@ -106,7 +108,7 @@ pub fn sample_of(scene: &dyn Scene, surface: usize, back: bool, [x, y]: [f64; 2]
     Some(seen(on, surface, &hit?, t))
 }
 
-/// What is known of a point of surface `index` at time `t`.
+/// Returns what is known of a point of surface `index` at time `t`.
 pub(crate) fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sample {
     let place = surface.place(hit.point, Jet::time(t));
     Sample {
@@ -120,34 +122,35 @@ pub(crate) fn seen(surface: &dyn Surface, index: usize, hit: &Hit, t: f64) -> Sa
     }
 }
 
-/// The foremost surface at a place of the display.
+/// Returns the foremost surface at a place of the display.
 fn nearest(surfaces: &[&dyn Surface], x: f64, y: f64, t: f64) -> Option<(usize, Hit)> {
     let hits = surfaces.iter().enumerate().filter_map(|(index, surface)| Some((index, surface.hit(x, y, t)?)));
     hits.min_by(|(_, a), (_, b)| a.depth.total_cmp(&b.depth))
 }
 
-/// The colour of a point at time `t`: luminosity is added alike to each of the three channels.
+/// Returns the colour of a point at time `t`: luminosity is added alike to each of the three channels.
 fn colour(surface: &dyn Surface, hit: &Hit, t: f64) -> Rgb {
     let gained = surface.luminosity_rate(hit.point) * t;
     surface.colour(hit.point).map(|channel| channel + gained)
 }
 
-/// The update that a renderer would deliver at time `t`: one point sample a cell, wings included. Cell (i, j) of the
-/// map is at the display position (i - `wings.left`, j - `wings.top`).
+/// Returns the update that a renderer would deliver at time `t`: one point sample per cell, margin included. Cell (i,
+/// j) of the map is at the display position (i - `margin.left`, j - `margin.top`).
 #[must_use]
 pub fn update(scene: &dyn Scene, t: f64) -> Update {
-    let wings = scene.wings();
-    let width = wings.left + scene.width() + wings.right;
-    let height = wings.top + scene.height() + wings.bottom;
+    let margin = scene.margin();
+    let width = margin.left + scene.width() + margin.right;
+    let height = margin.top + scene.height() + margin.bottom;
     let row = |j: usize| {
-        let y = j as f64 - wings.top as f64;
-        (0..width).map(move |i| scene.sample(i as f64 - wings.left as f64, y, t))
+        let y = j as f64 - margin.top as f64;
+        (0..width).map(move |i| scene.sample(i as f64 - margin.left as f64, y, t))
     };
     let samples = (0..height).into_par_iter().flat_map_iter(row).collect();
-    Update { width, height, wings, samples, depth_kind: scene.depth_kind(), overlay: scene.overlay() }
+    Update { width, height, margin, samples, depth_kind: scene.depth_kind(), overlay: scene.overlay() }
 }
 
-/// The true picture on the display at time `t`, sampled anew from the world under what is pinned; nothing is warped.
+/// Returns the true picture on the display at time `t`, sampled anew from the world under what is pinned; nothing is
+/// warped.
 #[must_use]
 pub fn render(scene: &dyn Scene, t: f64) -> Picture {
     let (width, height) = (scene.width(), scene.height());
@@ -163,7 +166,7 @@ pub fn render(scene: &dyn Scene, t: f64) -> Picture {
     }
 }
 
-/// Every built-in scene, from the calmest to the wildest.
+/// Returns every built-in scene, from the calmest to the wildest.
 #[must_use]
 pub fn all() -> &'static [&'static dyn Scene] {
     &[
@@ -182,7 +185,7 @@ pub fn all() -> &'static [&'static dyn Scene] {
     ]
 }
 
-/// The built-in scene called `name`.
+/// Returns the built-in scene called `name`.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static dyn Scene> {
     all().iter().copied().find(|scene| scene.name() == name)

@@ -5,7 +5,7 @@ use super::jet::Path;
 use super::solid::{Column, Lens, Plane};
 use super::surface::Surface;
 use super::texture::{Rgb, cell, checks, cover, dot, gradient, hash, hex, lit, mix, noise, rect, sign, stripes};
-use crate::update::Wings;
+use crate::update::Margin;
 
 /// Scene `near-plane`.
 pub struct NearPlane;
@@ -19,8 +19,8 @@ impl Scene for NearPlane {
         "a flight low over a corridor's floor, close to the near plane: 1/z, stretched surfaces, beyond second order"
     }
 
-    fn wings(&self) -> Wings {
-        Wings::all(8)
+    fn margin(&self) -> Margin {
+        Margin::all(8)
     }
 
     fn frames(&self) -> u32 {
@@ -70,7 +70,7 @@ fn in_corridor(z: f64, y: f64) -> bool {
     z <= END && (CEILING..=FLOOR).contains(&y)
 }
 
-/// The lowest row of the wings sees the floor at distance 1.06, just behind the near plane; in 16 frames the nearer
+/// The lowest row of the margin sees the floor at distance 1.06, just behind the near plane; in 16 frames the nearer
 /// post comes from 2.3 to 1.4.
 const LENS: &Lens = &Lens {
     focal: 120.0,

@@ -2,9 +2,9 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, cell, cover, dot, gradient, hash, hex, lit, mix, noise, rect};
-use crate::update::Wings;
+use crate::update::Margin;
 
 /// Scene `pan`.
 pub struct Pan;
@@ -19,11 +19,11 @@ impl Scene for Pan {
     }
 
     fn about(&self) -> &'static str {
-        "the view pans over a town with velocity and acceleration: what enters must have waited in the wings"
+        "the view pans over a town with velocity and acceleration: what enters must have waited in the overscan margin"
     }
 
-    fn wings(&self) -> Wings {
-        Wings { left: 0, right: 72, top: 12, bottom: 0 }
+    fn margin(&self) -> Margin {
+        Margin { left: 0, right: 72, top: 12, bottom: 0 }
     }
 
     fn frames(&self) -> u32 {
@@ -36,7 +36,7 @@ impl Scene for Pan {
 
     fn surfaces(&self) -> &[&dyn Surface] {
         const SURFACES: &[&dyn Surface] = &[
-            &Card::new(WAY, 0.95, endless, sky),
+            &Card::new(WAY, 0.95, everywhere, sky),
             &Card::new(WAY, 0.75, |u, v| v > skyline(u, FAR), |u, v| houses(u, v, FAR)),
             &Card::new(WAY, 0.5, |u, v| v > skyline(u, MIDDLE), |u, v| houses(u, v, MIDDLE)),
             &Card::new(WAY, 0.25, |u, v| v > skyline(u, FRONT), |u, v| houses(u, v, FRONT)),

@@ -59,7 +59,7 @@ const WALL: f64 = 14.0;
 /// them.
 const OVERLAP: f64 = 0.05;
 
-/// The step sideways gives 2.8 pixels a frame at the nearest pillar, 0.8 at the back wall.
+/// The step sideways gives 2.8 pixels per frame at the nearest pillar, 0.8 at the back wall.
 const LENS: &Lens = &Lens {
     focal: 170.0,
     centre: [95.5, 62.0],

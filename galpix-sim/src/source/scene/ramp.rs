@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::jet::Path;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, checks, cover, dot, gradient, hex, length, mix, noise, rect, sign, stripes};
 
 /// Scene `ramp`.
@@ -26,7 +26,7 @@ impl Scene for Ramp {
     }
 
     fn surfaces(&self) -> &[&dyn Surface] {
-        const WALL: Card = Card { rate: |u, v| 1.1 - 0.009 * u - 0.003 * v, ..Card::still(0.8, endless, wall) };
+        const WALL: Card = Card { rate: |u, v| 1.1 - 0.009 * u - 0.003 * v, ..Card::still(0.8, everywhere, wall) };
         const LEFT: Card = Card { rate: |_, _| 1.5, ..hung([Path::still(38.3), Path::still(54.6)], 0.6, sea) };
         const MIDDLE: Card = Card {
             rate: |u, v| 1.75 - 0.05 * length(u, v),

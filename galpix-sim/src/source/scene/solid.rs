@@ -17,12 +17,12 @@ fn minus(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// `start + distance * direction`.
+/// Returns `start + distance * direction`.
 fn along(start: Vector, distance: f64, direction: Vector) -> Vector {
     [0, 1, 2].map(|i| start[i] + distance * direction[i])
 }
 
-/// Where a ray meets a body: the real roots of `a s² - 2 b s + c = 0` for positive `a`, the nearer one first.
+/// Returns where a ray meets a body: the real roots of `a s² - 2 b s + c = 0` for positive `a`, the nearer one first.
 fn roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
     let discriminant = b * b - a * c;
     (discriminant >= 0.0).then(|| [(b - discriminant.sqrt()) / a, (b + discriminant.sqrt()) / a])
@@ -45,13 +45,13 @@ impl Lens {
         [self.eye[0].value(t), self.eye[1].value(t), self.eye[2].value(t)]
     }
 
-    /// The direction of view through a display position, scaled to z = 1: distances along it are depths.
+    /// Returns the direction of view through a display position, scaled to z = 1: distances along it are depths.
     fn ray(&self, x: f64, y: f64) -> Vector {
         [(x - self.centre[0]) / self.focal, (y - self.centre[1]) / self.focal, 1.0]
     }
 
-    /// Normalised depth at distance `z`; none in front of the near plane, none where the distance is infinite or
-    /// undefined.
+    /// Returns the normalised depth at distance `z`; none in front of the near plane, none where the distance is
+    /// infinite or undefined.
     fn depth(&self, z: f64) -> Option<f64> {
         (z >= self.near && z.is_finite()).then(|| 1.0 - self.near / z)
     }

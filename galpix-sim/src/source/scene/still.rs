@@ -1,7 +1,7 @@
 //! A landscape at sunset in which nothing moves.
 
 use super::Scene;
-use super::surface::{Card, Surface, endless};
+use super::surface::{Card, Surface, everywhere};
 use super::texture::{Rgb, cover, dot, gradient, hex, length, lit, mix, noise, rect, stripes};
 
 /// Scene `still`.
@@ -26,7 +26,7 @@ impl Scene for Still {
 
     fn surfaces(&self) -> &[&dyn Surface] {
         const SURFACES: &[&dyn Surface] = &[
-            &Card::still(0.95, endless, sky),
+            &Card::still(0.95, everywhere, sky),
             &Card::still(0.8, |u, v| v > mountain(u), mountains),
             &Card::still(0.6, |u, v| v > hill(u), hills),
             &Card::still(0.35, |u, v| v > meadow(u), meadows),

@@ -18,22 +18,22 @@ pub struct Hit {
 
 /// One rigid, opaque, coloured object of a scene.
 pub trait Surface: Sync {
-    /// The point seen at display position (`x`, `y`) (pixels) at `t` (frames), if the surface is there.
+    /// Returns the point seen at display position (`x`, `y`) (pixels) at `t` (frames), if the surface is there.
     fn hit(&self, x: f64, y: f64, t: f64) -> Option<Hit>;
 
-    /// The point of the back that would be seen at the same place if the front were not there; only solid bodies have a
-    /// back.
+    /// Returns the point of the back that would be seen at the same place if the front were not there; only solid
+    /// bodies have a back.
     fn behind(&self, _x: f64, _y: f64, _t: f64) -> Option<Hit> {
         None
     }
 
-    /// Where `point` is at `t`: x and y in pixels, normalised depth; with derivatives if `t` has them.
+    /// Returns where `point` is at `t`: x and y in pixels, normalised depth; with derivatives if `t` has them.
     fn place(&self, point: Point, t: Jet) -> [Jet; 3];
 
-    /// The colour of `point` at the update, t = 0.
+    /// Returns the colour of `point` at the update, t = 0.
     fn colour(&self, point: Point) -> Rgb;
 
-    /// Change of the luminosity of `point`: code values a frame, added to each of the three channels.
+    /// Change of the luminosity of `point`: code values per frame, added to each of the three channels.
     fn luminosity_rate(&self, _point: Point) -> f64 {
         0.0
     }
@@ -41,12 +41,12 @@ pub trait Surface: Sync {
 
 /// Colour as a function of the place on a surface.
 pub type Paint = fn(f64, f64) -> Rgb;
-/// Which places on an endless plane belong to the surface.
+/// Which places on an unbounded plane belong to the surface.
 pub type Shape = fn(f64, f64) -> bool;
 
-/// The shape of a surface that has no border.
+/// Returns the shape of a surface that has no border.
 #[must_use]
-pub fn endless(_u: f64, _v: f64) -> bool {
+pub fn everywhere(_u: f64, _v: f64) -> bool {
     true
 }
 
@@ -63,7 +63,7 @@ pub struct Card {
     pub shape: Shape,
     /// Colour, in pixels from the origin.
     pub paint: Paint,
-    /// Change of luminosity (code values a frame), in pixels from the origin.
+    /// Change of luminosity (code values per frame), in pixels from the origin.
     pub rate: fn(f64, f64) -> f64,
 }
 
@@ -74,7 +74,7 @@ impl Card {
         Self { origin, depth: Path::still(depth), angle: Path::still(0.0), shape, paint, rate: |_, _| 0.0 }
     }
 
-    /// A card that never moves, its origin at the top left corner of the display.
+    /// Creates a card that never moves, its origin at the top left corner of the display.
     #[must_use]
     pub const fn still(depth: f64, shape: Shape, paint: Paint) -> Self {
         Self::new([Path::still(0.0), Path::still(0.0)], depth, shape, paint)

@@ -3,12 +3,12 @@
 use super::{Scene, all, find, render, update};
 use crate::update::{Known, Sample};
 
-/// Every third column and row of the map, wings included; odd steps, so that no pattern of the textures is in tune with
-/// them.
+/// Every third column and row of the map, margin included; odd steps, so that no pattern of the textures is in tune
+/// with them.
 fn places(scene: &dyn Scene) -> impl Iterator<Item = (f64, f64)> {
-    let wings = scene.wings();
-    let (left, right) = (-(wings.left as i32), (scene.width() + wings.right) as i32);
-    let (top, bottom) = (-(wings.top as i32), (scene.height() + wings.bottom) as i32);
+    let margin = scene.margin();
+    let (left, right) = (-(margin.left as i32), (scene.width() + margin.right) as i32);
+    let (top, bottom) = (-(margin.top as i32), (scene.height() + margin.bottom) as i32);
     let row = move |y| (left..right).step_by(3).map(move |x| (f64::from(x), f64::from(y)));
     (top..bottom).step_by(3).flat_map(row)
 }
@@ -122,13 +122,13 @@ fn second_order_is_exact_where_it_is_claimed_and_visibly_wrong_where_not() {
 #[test]
 fn updates_are_complete_and_in_range() {
     for scene in all() {
-        let (update, wings) = (update(*scene, 0.0), scene.wings());
-        assert_eq!(update.wings, wings);
-        assert_eq!(update.width, scene.width() + wings.left + wings.right);
-        assert_eq!(update.height, scene.height() + wings.top + wings.bottom);
+        let (update, margin) = (update(*scene, 0.0), scene.margin());
+        assert_eq!(update.margin, margin);
+        assert_eq!(update.width, scene.width() + margin.left + margin.right);
+        assert_eq!(update.height, scene.height() + margin.top + margin.bottom);
         assert_eq!(update.samples.len(), update.width * update.height);
         assert_eq!(update.picture(), render(*scene, 0.0), "{}", scene.name());
-        let corner = scene.sample(-(wings.left as f64), -(wings.top as f64), 0.0);
+        let corner = scene.sample(-(margin.left as f64), -(margin.top as f64), 0.0);
         assert_eq!(update.samples.first(), Some(&corner), "{}", scene.name());
         for sample in &update.samples {
             assert!((0.0..=1.0).contains(&sample.depth), "{}: {sample:?}", scene.name());
@@ -171,15 +171,15 @@ fn pictures_change_with_time_except_the_still_one() {
 }
 
 #[test]
-fn whatever_the_pan_shows_has_waited_in_the_wings() {
+fn whatever_the_pan_shows_has_waited_in_the_margin() {
     let pan = find("pan").expect("a built-in scene");
-    let wings = pan.wings();
+    let margin = pan.margin();
     let (width, height) = (pan.width() as f64 - 1.0, pan.height() as f64 - 1.0);
     for t in 0..=pan.frames() {
         for (x, y) in [(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)] {
             let [x, y, _] = pan.track(x, y, f64::from(t), 0.0);
-            assert!(x >= -(wings.left as f64) && x <= width + wings.right as f64, "frame {t}: {x}");
-            assert!(y >= -(wings.top as f64) && y <= height + wings.bottom as f64, "frame {t}: {y}");
+            assert!(x >= -(margin.left as f64) && x <= width + margin.right as f64, "frame {t}: {x}");
+            assert!(y >= -(margin.top as f64) && y <= height + margin.bottom as f64, "frame {t}: {y}");
         }
     }
 }

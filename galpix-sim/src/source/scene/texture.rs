@@ -6,13 +6,13 @@
 /// Red, green and blue in 8-bit code values, not yet rounded.
 pub type Rgb = [f64; 3];
 
-/// A colour from its usual notation, `0xRRGGBB`.
+/// Returns a colour from its usual notation, `0xRRGGBB`.
 #[must_use]
 pub const fn hex(code: u32) -> Rgb {
     [(code >> 16 & 0xff) as f64, (code >> 8 & 0xff) as f64, (code & 0xff) as f64]
 }
 
-/// `share` of `ink` over the rest of `ground`; a share outside of 0..=1 is clamped.
+/// Returns `share` of `ink` over the rest of `ground`; a share outside of 0..=1 is clamped.
 #[must_use]
 pub fn mix(ground: Rgb, ink: Rgb, share: f64) -> Rgb {
     let share = share.clamp(0.0, 1.0);
@@ -25,20 +25,21 @@ pub fn gradient(stops: [Rgb; 3], place: f64) -> Rgb {
     mix(mix(stops[0], stops[1], place * 2.0), stops[2], place * 2.0 - 1.0)
 }
 
-/// `colour`, brighter (`light` above 1) or darker.
+/// Returns `colour`, brighter (`light` above 1) or darker.
 #[must_use]
 pub fn lit(colour: Rgb, light: f64) -> Rgb {
     colour.map(|channel| channel * light)
 }
 
-/// The nearest 8-bit colour.
+/// Returns the nearest 8-bit colour.
 #[must_use]
 pub fn round(colour: Rgb) -> [u8; 3] {
     // `as` saturates, so that a colour a little out of range is clamped.
     colour.map(|channel| channel.round() as u8)
 }
 
-/// A number in 0..1 for each cell of a lattice: the finaliser of the SplitMix64 generator (Steele, Lea, Flood 2014).
+/// Returns a number in 0..1 for each cell of a lattice: the finaliser of the SplitMix64 generator (Steele, Lea, Flood
+/// 2014).
 #[must_use]
 pub fn hash(column: i64, row: i64, seed: u32) -> f64 {
     let mut bits = (column as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
@@ -49,14 +50,14 @@ pub fn hash(column: i64, row: i64, seed: u32) -> f64 {
     ((bits ^ bits >> 31) >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// The lattice cell that `place` is in, and how far into it (0..`size`) it lies.
+/// Returns the lattice cell that `place` is in, and how far into it (0..`size`) it lies.
 #[must_use]
 pub fn cell(place: f64, size: f64) -> (i64, f64) {
     let index = (place / size).floor();
     (index as i64, place - index * size)
 }
 
-/// Smooth value noise in 0..=1 with one lattice point a unit.
+/// Returns smooth value noise in 0..=1 with one lattice point a unit.
 fn value_noise(u: f64, v: f64, seed: u32) -> f64 {
     let ((i, u), (j, v)) = (cell(u, 1.0), cell(v, 1.0));
     let smooth = |s: f64| s * s * (3.0 - 2.0 * s);
@@ -65,58 +66,60 @@ fn value_noise(u: f64, v: f64, seed: u32) -> f64 {
     upper + (lower - upper) * smooth(v)
 }
 
-/// Fractal noise in 0..=1: three octaves, the largest forms `size` texels wide and each octave half as wide and strong.
+/// Returns fractal noise in 0..=1: three octaves, the largest forms `size` texels wide and each octave half as wide
+/// and strong.
 #[must_use]
 pub fn noise(u: f64, v: f64, size: f64, seed: u32) -> f64 {
     let octave = |scale: f64, seed| value_noise(u / size * scale, v / size * scale, seed);
     (4.0 * octave(1.0, seed) + 2.0 * octave(2.0, seed ^ 0x55) + octave(4.0, seed ^ 0xaa)) / 7.0
 }
 
-/// How much of a texel lies inside of a border that is `inside` texels away (negative: outside).
+/// Returns how much of a texel lies inside of a border that is `inside` texels away (negative: outside).
 #[must_use]
 pub fn cover(inside: f64) -> f64 {
     (inside + 0.5).clamp(0.0, 1.0)
 }
 
-/// Coverage of the stretch `from..to`.
+/// Returns the coverage of the stretch `from..to`.
 #[must_use]
 pub fn band(place: f64, from: f64, to: f64) -> f64 {
     cover(place - from) * cover(to - place)
 }
 
-/// Coverage of a box around the origin, `half_width` and `half_height` texels.
+/// Returns the coverage of a box around the origin, `half_width` and `half_height` texels.
 #[must_use]
 pub fn rect(u: f64, v: f64, half_width: f64, half_height: f64) -> f64 {
     cover(half_width - u.abs()) * cover(half_height - v.abs())
 }
 
-/// Distance from the origin.
+/// Returns the distance from the origin.
 #[must_use]
 pub fn length(u: f64, v: f64) -> f64 {
     (u * u + v * v).sqrt()
 }
 
-/// Coverage of a disc around the origin.
+/// Returns the coverage of a disc around the origin.
 #[must_use]
 pub fn dot(u: f64, v: f64, radius: f64) -> f64 {
     cover(radius - length(u, v))
 }
 
-/// Coverage of stripes: of each `period` the first `width` texels.
+/// Returns the coverage of stripes: of each `period` the first `width` texels.
 #[must_use]
 pub fn stripes(place: f64, period: f64, width: f64) -> f64 {
     let (_, place) = cell(place, period);
     band(place, 0.0, width).max(cover(place - period))
 }
 
-/// Coverage of every other square of a board with squares of `size` texels.
+/// Returns the coverage of every other square of a board with squares of `size` texels.
 #[must_use]
 pub fn checks(u: f64, v: f64, size: f64) -> f64 {
     let (u, v) = (stripes(u, 2.0 * size, size), stripes(v, 2.0 * size, size));
     u + v - 2.0 * u * v
 }
 
-/// Brickwork with joints 1.5 texels wide: coverage of the brick, and a number in 0..1 that is the brick's own.
+/// Returns brickwork with joints 1.5 texels wide: coverage of the brick, and a number in 0..1 that is the brick's
+/// own.
 #[must_use]
 pub fn bricks(u: f64, v: f64, width: f64, height: f64, seed: u32) -> (f64, f64) {
     let (row, v) = cell(v, height);
@@ -134,7 +137,7 @@ const SIGN: [[u8; 7]; 6] = [
     [0b10001, 0b10001, 0b01010, 0b00100, 0b01010, 0b10001, 0b10001],
 ];
 
-/// Coverage of the word GALPIX, centred at the origin: 35 x 7 units of `unit` texels each.
+/// Returns the coverage of the word GALPIX, centred at the origin: 35 x 7 units of `unit` texels each.
 #[must_use]
 pub fn sign(u: f64, v: f64, unit: f64) -> f64 {
     let inked = |column: i64, row: i64| {

@@ -1,4 +1,4 @@
-//! The columns of the figures, a line a world. Missing samples are means over the views.
+//! The columns of the figures, a line per world. Missing samples are means over the views.
 
 use super::report::SourceReport;
 use crate::output::column::{Column, Value};
@@ -14,7 +14,7 @@ fn percent(share: Option<f64>) -> Value {
     share.map(|share| 100.0 * share).into()
 }
 
-/// A name that is cut where it is too long.
+/// Returns a name that is cut where it is too long.
 fn cut(name: &str) -> Value {
     if name.chars().count() <= NAME {
         return name.into();
@@ -22,7 +22,7 @@ fn cut(name: &str) -> Value {
     name.chars().take(NAME - 1).chain(['…']).collect::<String>().into()
 }
 
-/// Returns the columns, wide enough for figures that come later.
+/// Returns the columns, wide enough for figures printed later.
 pub fn columns() -> [Column<SourceReport>; 15] {
     let column = Column::<SourceReport>::new;
     [

@@ -24,33 +24,33 @@ pub const MOST_TRIANGLES: usize = 1 << 21;
 /// Bytes that a file may have.
 pub const MOST_BYTES: u64 = 1 << 29;
 
-/// Why an object cannot be used. One sentence: what, where, how to mend it.
+/// Why an object cannot be used. One sentence: what, where, how to correct it.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {what}; {mend}", printable(file))]
+#[error("{}: {what}; {hint}", printable(file))]
 pub struct ImportError {
     file: PathBuf,
     what: String,
-    mend: &'static str,
+    hint: &'static str,
 }
 
-/// A file's name without the characters that command a terminal.
+/// Returns a file's name without the characters that command a terminal.
 fn printable(file: &Path) -> String {
     file.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// Whether a name looks like that of an object's file.
+/// Returns whether a name looks like that of an object's file.
 #[must_use]
 pub fn is_object(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("obj"))
 }
 
-/// The object in an OBJ file, on the stage. Its material files are looked for in its own folder only; without them it
-/// is grey.
+/// Returns the object in an OBJ file, on the stage. Its material files are looked for in its own folder only; without
+/// them it is grey.
 ///
 /// *Errors:* a file that cannot be read or parsed, that has no triangle with an area, more than [`MOST_TRIANGLES`], a
 /// corner that is no finite number, or a face with a corner that is not there.
 pub fn obj(file: &Path) -> Result<World, ImportError> {
-    let error = |what: String, mend: &'static str| ImportError { file: file.to_path_buf(), what, mend };
+    let error = |what: String, hint: &'static str| ImportError { file: file.to_path_buf(), what, hint };
     let opened =
         File::open(file).map_err(|io| error(format!("it cannot be opened ({io})"), "give the path of an OBJ file"))?;
     let about =

@@ -1,18 +1,18 @@
 //! What a frame lacks: samples of the truth that are not in it, over views around the reference eye (section 6).
 
-use super::raster::Raster;
 use super::reference;
 use super::view::{Place, View};
 use super::warp::{Joint, warp};
 use super::world::World;
+use crate::source::ddoc::raster::Raster;
 use crate::study::ddoc::reference::Reference;
 use rayon::prelude::*;
 
 /// Two samples are the same if their inverse distances differ by no more than this share.
 const SAME: f32 = 0.03;
 
-/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample but
-/// a part of an outline, which no image of samples has more exactly.
+/// How far from its own pixel a sample of the truth may be in a frame, pixels: what is lost there is not the sample
+/// but a part of an outline, which no image of samples has more exactly.
 pub const TOLERANCE: usize = 1;
 
 /// What the frames of one view lack.
@@ -28,8 +28,8 @@ pub struct Missing {
     pub strict: Vec<u32>,
 }
 
-/// Where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds the same
-/// depth.
+/// Returns where in a frame samples of the truth are missing: those for which no pixel within `near` of theirs holds
+/// the same depth.
 #[must_use]
 pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -> Vec<bool> {
     let (width, height) = (truth.width, truth.height);
@@ -45,7 +45,7 @@ pub fn mask<const N: usize>(truth: &Raster<N>, frame: &Raster<3>, near: usize) -
     (0..width * height).map(missing).collect()
 }
 
-/// The faces', edges' and corners' middles of a cube around the reference eye: 26 places.
+/// Returns the faces', edges' and corners' middles of a cube around the reference eye: 26 places.
 #[must_use]
 pub fn cube(half_side: f64) -> Vec<Place> {
     let coordinates = [-half_side, 0.0, half_side];
@@ -54,7 +54,7 @@ pub fn cube(half_side: f64) -> Vec<Place> {
     places.filter(|place| *place != [0.0; 3]).collect()
 }
 
-/// The view from a place: 45 degrees wide, along z, with pixels about as large as the reference image's.
+/// Returns the view from a place: 45 degrees wide, along z, with pixels about as large as the reference image's.
 #[must_use]
 pub fn desired(eye: Place, size: usize) -> View {
     // tan 22.5 degrees; three quarters as high.
@@ -62,7 +62,7 @@ pub fn desired(eye: Place, size: usize) -> View {
     View::new(eye, width, width * 3 / 4, 45.0)
 }
 
-/// What frames lack that are made from each of `references`, view by view.
+/// Returns what frames lack that are made from each of `references`, view by view.
 #[must_use]
 pub fn count(world: &World, size: usize, references: &[(&Reference, Joint)]) -> Vec<Missing> {
     cube(world.half_side)

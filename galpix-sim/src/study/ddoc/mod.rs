@@ -1,23 +1,18 @@
 //! The depth discontinuity occlusion camera on worlds of triangles: reference images, frames warped from them, and what
-//! those frames lack. The distortion is `galpix_core::ddoc`'s; what is drawn with it is drawn here.
+//! those frames lack. The distortion map is that of [`crate::source::ddoc`].
 //!
 //! ```text
 //! scene, file ─▶ world ─▶ reference (plain, DDOC) ─▶ warp ─▶ missing ─▶ report, pictures, page
 //!                            distortion ─┘
-//! scene ─▶ hidden (the DDOC image as galpixels)
 //! ```
 
 mod columns;
-pub mod distortion;
-pub mod hidden;
 pub mod import;
 pub mod missing;
 mod page;
 pub mod pictures;
-pub mod raster;
 pub mod reference;
 pub mod report;
-pub mod sheet;
 pub mod view;
 pub mod warp;
 pub mod world;
@@ -40,6 +35,7 @@ use self::world::World;
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
 use crate::output::column::Table;
 use crate::output::save::file_name;
+use crate::source::ddoc::distortion;
 use crate::source::scene;
 
 /// The sides of reference images that are possible, pixels.
@@ -61,20 +57,20 @@ pub struct Request {
 }
 
 impl Request {
-    /// What is asked for if nothing is said: D is a 32nd of the image, a_f is 2.
+    /// Returns the default request: D is a 32nd of the image, a_f is 2.
     #[must_use]
     pub fn new(size: usize) -> Self {
         Self { size, radius: (size as u32 / 32).clamp(1, MOST_RADIUS), asymmetry: 2.0 }
     }
 
-    /// The settings of the distortion map.
+    /// Returns the settings of the distortion map.
     #[must_use]
     pub fn settings(&self) -> Settings {
         let sixteenths = (self.asymmetry * f64::from(SYMMETRIC)).round() as u32;
         Settings { radius: self.radius, asymmetry: sixteenths, ..distortion::settings() }
     }
 
-    /// What joins the samples of the plain image, and of the DDOC image.
+    /// Returns what joins the samples of the plain image, and of the DDOC image.
     ///
     /// The first are a pixel apart. The second are squeezed, at most by twice the asymmetry along the distortion; and
     /// the direction of neighbouring splats differs by a little, which moves what is far from the edge by some pixels
@@ -123,7 +119,7 @@ impl Study for Request {
 
     fn study(&self, world: &&World, stage: &Stage<'_>) -> Result<Found<Seen>, StudyError> {
         let (report, pictures) = study(world, self).map_err(StudyError::unusable)?;
-        (stage.tell)(Work::Done);
+        (stage.notify)(Work::Done);
         Ok(Found::Report(Seen { report, pictures }))
     }
 
@@ -173,15 +169,15 @@ pub enum DdocError {
     Setup(#[from] SetupError),
 }
 
-/// The worlds that are studied if none is named.
+/// Returns the worlds that are studied if none is named.
 #[must_use]
 pub fn defaults() -> &'static [&'static str] {
     &["pillars", "sphere", "crossing", "near-plane", "portal", "knot"]
 }
 
-/// The world of a name: one of [`worlds::names`], a built-in scene, or the path of an OBJ file.
+/// Returns the world of a name: one of [`worlds::names`], a built-in scene, or the path of an OBJ file.
 ///
-/// *Errors:* one sentence that says what, where and how to mend it.
+/// *Errors:* one sentence that says what, where and how to correct it.
 pub fn open(name: &str) -> Result<World, DdocError> {
     if let Some(world) = worlds::find(name) {
         return Ok(world);

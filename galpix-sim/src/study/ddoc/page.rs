@@ -13,7 +13,7 @@ use crate::output::html::{self as page};
 pub fn html(document: &Document) -> String {
     let intro = [
         "A depth image lacks what is hidden behind the edges that it sees. The depth discontinuity occlusion camera looks a \
-         little around each edge, so that a frame made from beside it has fewer holes."
+         little around each edge, so that a frame seen from another place has fewer holes."
             .to_owned(),
     ];
     let reports: Vec<_> = document.sources.iter().map(|seen| seen.report.clone()).collect();

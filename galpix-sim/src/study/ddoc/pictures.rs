@@ -1,13 +1,13 @@
 //! Pictures of a study: both reference images, the distortion map, and a pair of frames with what they lack in white.
 
 use super::missing::{TOLERANCE, mask};
-use super::raster::Raster;
 use super::reference::{self, Ddoc, Reference};
 use super::view::View;
 use super::warp::{Joint, warp};
 use super::world::World;
 use crate::output::film::magnified;
 use crate::picture::Picture;
+use crate::source::ddoc::raster::Raster;
 
 /// Columns and rows of the magnified part of a frame.
 const PART: usize = 44;
@@ -51,14 +51,14 @@ impl Pictures {
         Self { all }
     }
 
-    /// The picture with this name.
+    /// Returns the picture with this name.
     #[must_use]
     pub fn named(&self, name: &str) -> Option<&Picture> {
         self.all.iter().find(|(own, _, _)| *own == name).map(|(_, _, picture)| picture)
     }
 }
 
-/// The colours of a raster, of which they are the first three numbers.
+/// Returns the colours of a raster, of which they are the first three numbers.
 #[must_use]
 pub fn picture<const N: usize>(raster: &Raster<N>) -> Picture {
     let colour = |carried: &[f32; N]| [0, 1, 2].map(|i: usize| carried[i].round() as u8);
@@ -73,7 +73,8 @@ fn whitened(frame: &Raster<3>, missing: &[bool]) -> Picture {
     picture
 }
 
-/// The direction of the distortion as a hue, as in figure 6; the lighter the smaller, and grey where there is none.
+/// Returns the direction of the distortion as a hue, as in figure 6; the lighter the smaller, and grey where there is
+/// none.
 fn directions(ddoc: &Ddoc) -> Picture {
     let Raster { width, height, .. } = ddoc.image.raster;
     let longest = ddoc.map.iter().map(|[x, y]| x.hypot(*y)).fold(1e-9, f64::max);
@@ -92,7 +93,7 @@ fn directions(ddoc: &Ddoc) -> Picture {
     Picture { width, height, pixels: ddoc.map.iter().map(colour).collect() }
 }
 
-/// The corner of the part in which most is missing.
+/// Returns the corner of the part in which most is missing.
 fn most_missing(missing: &[bool], width: usize, height: usize) -> (usize, usize) {
     let places = |size: usize| (0..=size.saturating_sub(PART)).step_by(4);
     let count = |&(left, top): &(usize, usize)| {

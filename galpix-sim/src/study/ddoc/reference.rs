@@ -5,10 +5,10 @@ use std::time::Instant;
 use galpix_core::SetupError;
 use galpix_core::ddoc::{DistortionMap, Settings, Tally};
 
-use super::distortion::{self, Memory, depth_word};
-use super::raster::{Pin, Raster};
 use super::view::{Corner, View};
 use super::world::World;
+use crate::source::ddoc::distortion::{self, Memory, depth_word};
+use crate::source::ddoc::raster::{Pin, Raster};
 
 /// An image with depth, colour, and for each sample by how much it was moved.
 #[derive(Clone, Debug)]
@@ -43,7 +43,7 @@ fn pin(view: &View, near: f64, corner: &Corner) -> Pin<5> {
     Pin { at: [u, v], nearness: near / z, carried: [red, green, blue, 0.0, 0.0] }
 }
 
-/// The world from a view, as a pinhole camera sees it: the truth for that view, or the plain reference image.
+/// Returns the world from a view, as a pinhole camera sees it: the truth for that view, or the plain reference image.
 #[must_use]
 pub fn plain(world: &World, view: &View) -> Reference {
     let mut raster = Raster::new(view.width, view.height);
@@ -56,7 +56,7 @@ pub fn plain(world: &World, view: &View) -> Reference {
     Reference { view: *view, near: world.near, raster }
 }
 
-/// The world from the reference view of `size` pixels squared with the DDOC.
+/// Returns the world from the reference view of `size` pixels squared with the DDOC.
 ///
 /// *Errors:* a size that a distortion map cannot have.
 pub fn ddoc(world: &World, size: usize, settings: &Settings) -> Result<Ddoc, SetupError> {

@@ -68,7 +68,7 @@ pub struct SourceReport {
 }
 
 impl SourceReport {
-    /// The figures of a world. The first reference image of `views` is the plain one.
+    /// Creates the figures of a world. The first reference image of `views` is the plain one.
     #[must_use]
     pub fn new(world: &World, request: &Request, ddoc: &Ddoc, views: &[Missing]) -> Self {
         let sum = |of: &dyn Fn(&Missing) -> u32| views.iter().map(|view| u64::from(of(view))).sum::<u64>();

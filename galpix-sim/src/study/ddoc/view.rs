@@ -16,7 +16,7 @@ pub struct Corner {
 }
 
 impl Corner {
-    /// The point at `share` of the way to `other`.
+    /// Returns the point at `share` of the way to `other`.
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         let place = [0, 1, 2].map(|i| self.place[i] + (other.place[i] - self.place[i]) * share);
@@ -39,25 +39,25 @@ pub struct View {
 }
 
 impl View {
-    /// A camera whose field of view is `degrees` wide.
+    /// Creates a camera whose field of view is `degrees` wide.
     #[must_use]
     pub fn new(eye: Place, width: usize, height: usize, degrees: f64) -> Self {
         Self { eye, focal: 0.5 * width as f64 / (0.5 * degrees).to_radians().tan(), width, height }
     }
 
-    /// The reference view: at the origin, 90 by 90 degrees.
+    /// Creates the reference view: at the origin, 90 by 90 degrees.
     #[must_use]
     pub fn reference(size: usize) -> Self {
         Self::new([0.0; 3], size, size, 90.0)
     }
 
-    /// Where the optical axis meets the picture; pixels have their middles at whole numbers.
+    /// Returns where the optical axis meets the picture; pixels have their middles at whole numbers.
     #[must_use]
     pub fn centre(&self) -> [f64; 2] {
         [0.5 * (self.width as f64 - 1.0), 0.5 * (self.height as f64 - 1.0)]
     }
 
-    /// Pixel and distance of a place in front of the eye.
+    /// Returns the pixel and distance of a place in front of the eye.
     #[must_use]
     pub fn project(&self, place: Place) -> [f64; 3] {
         let [x, y, z] = [0, 1, 2].map(|i| place[i] - self.eye[i]);

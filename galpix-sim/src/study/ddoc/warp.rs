@@ -1,8 +1,8 @@
 //! A reference image from another view (section 5): its samples as a mesh, cut where the depth is discontinuous.
 
-use super::raster::{Pin, Raster};
 use super::reference::Reference;
 use super::view::View;
+use crate::source::ddoc::raster::{Pin, Raster};
 
 /// What decides which neighbouring samples are one surface.
 #[derive(Clone, Copy, Debug)]
@@ -14,7 +14,7 @@ pub struct Joint {
     pub reach: f32,
 }
 
-/// The frame of `view` made from the samples of `reference`: red, green, blue.
+/// Returns the frame of `view` made from the samples of `reference`: red, green, blue.
 #[must_use]
 pub fn warp(reference: &Reference, view: &View, joint: &Joint) -> Raster<3> {
     let Reference { raster, near, .. } = reference;
@@ -44,7 +44,7 @@ pub fn warp(reference: &Reference, view: &View, joint: &Joint) -> Raster<3> {
         apart <= joint.reach && step <= joint.step * apart.max(1.0)
     };
     // Where the mesh is cut, a sample goes on to the border of its pixel: half a pixel of the plain image.
-    let beside = |x: usize, y: usize, index: usize| {
+    let neighbours = |x: usize, y: usize, index: usize| {
         [
             (x > 0).then(|| index - 1),
             (x + 1 < width).then_some(index + 1),
@@ -54,7 +54,7 @@ pub fn warp(reference: &Reference, view: &View, joint: &Joint) -> Raster<3> {
     };
     for (index, of) in pins.iter().enumerate() {
         let Some(of) = of else { continue };
-        if beside(index % width, index / width, index).into_iter().flatten().all(|other| joined(index, other)) {
+        if neighbours(index % width, index / width, index).into_iter().flatten().all(|other| joined(index, other)) {
             continue;
         }
         let z = near / f64::from(raster.nearness[index]);

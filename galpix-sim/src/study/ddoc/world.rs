@@ -1,7 +1,7 @@
-//! What is looked at: triangles, from a built-in scene, a world of its own, or a file.
+//! Worlds: triangles from a built-in scene, a made-up world, or a file.
 
-use super::sheet::{self, Lattice, Node};
 use super::view::{Corner, View};
+use crate::source::ddoc::sheet::{self, Lattice, Node};
 use crate::source::scene::Scene;
 
 /// A world of triangles before the reference eye.
@@ -25,7 +25,7 @@ pub struct World {
 /// lens that most of them have.
 const HALF_FIELD: f64 = 170.0;
 
-/// How much wider than the reference view the meshes of a scene reach: views from beside it see some more.
+/// How much wider than the reference view the meshes of a scene reach: views from other places see some more.
 const WIDER: f64 = 1.12;
 
 /// Pixels of the display between nodes.
@@ -35,7 +35,7 @@ const STEP: f64 = 0.85;
 const NEAREST: f64 = 0.002;
 
 impl World {
-    /// An empty world.
+    /// Creates an empty world.
     #[must_use]
     pub fn new(name: &str, about: &str, half_side: f64) -> Self {
         let (name, about) = (name.to_owned(), about.to_owned());
@@ -66,8 +66,8 @@ impl World {
         self
     }
 
-    /// A built-in scene at its update, as its own eye sees it: each surface as a mesh with its hidden parts and its
-    /// back.
+    /// Creates a built-in scene at its update, as its own eye sees it: each surface as a mesh with its hidden parts and
+    /// its back.
     #[must_use]
     pub fn of_scene(scene: &dyn Scene) -> Self {
         let mut world = Self::new(scene.name(), scene.about(), 0.0);

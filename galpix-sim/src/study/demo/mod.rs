@@ -1,4 +1,4 @@
-//! The demonstration: all built-in scenes side by side, each as a film, in plots, and as a line of a table.
+//! The demonstration: all built-in scenes, each as a film, in plots, and as a line of a table.
 
 mod columns;
 
@@ -21,7 +21,7 @@ const FRAME_MS: u16 = 120;
 /// A film may be this large before its colours are counted.
 const FILM_BYTES: usize = 1_000_000;
 
-/// Frames of each scene that are made once more in both modes of work, to say what skipping saves.
+/// Frames of each scene that are made again in both modes, to compare their times.
 const FRAMES_FOR_GAIN: u32 = 5;
 
 /// What is demonstrated.
@@ -35,7 +35,7 @@ pub struct Plan {
 #[derive(Serialize)]
 pub struct Demonstration {
     #[serde(skip)]
-    told: Vec<Told>,
+    scenes: Vec<SceneReport>,
 }
 
 impl Study for Plan {
@@ -61,13 +61,13 @@ impl Study for Plan {
     }
 
     fn study(&self, jobs: &Vec<Job<'_>>, stage: &Stage<'_>) -> Result<Found<Demonstration>, StudyError> {
-        let told = jobs.par_iter().map(|job| tell(job, stage.tell)).collect::<Result<_, _>>();
-        Ok(Found::Report(Demonstration { told: told.map_err(StudyError::unusable)? }))
+        let scenes = jobs.par_iter().map(|job| report(job, stage.notify)).collect::<Result<_, _>>();
+        Ok(Found::Report(Demonstration { scenes: scenes.map_err(StudyError::unusable)? }))
     }
 
     fn text(&self, report: &Demonstration) -> String {
         let columns = columns::columns();
-        Table::new(&columns, &report.told).lines(&report.told).collect::<Vec<_>>().join("\n")
+        Table::new(&columns, &report.scenes).lines(&report.scenes).collect::<Vec<_>>().join("\n")
     }
 
     fn extra(&self, _silent: &Silent) -> NoExtra {
@@ -90,22 +90,22 @@ impl Study for Plan {
                 ("ns a galpixel".to_owned(), "a budget chosen at run time, scenes side by side".to_owned()),
                 ("Time".to_owned(), format!("{:.1} s", document.seconds.unwrap_or(0.0))),
             ],
-            stories: document.sources.iter().flat_map(|all| &all.told).map(|told| told.story.clone()).collect(),
+            stories: document.sources.iter().flat_map(|all| &all.scenes).map(|scene| scene.story.clone()).collect(),
         });
         Ok(vec![("report.html".to_owned(), page.into_bytes())])
     }
 }
 
 /// A source after its run.
-struct Told {
+struct SceneReport {
     run: RunReport,
     story: Story,
-    /// The time of a frame with constant work by that of one that skips.
+    /// The time of a constant-time frame divided by that of a data-dependent one.
     gain: f64,
 }
 
 /// Runs a source and makes its story.
-fn tell(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<Told, ExperimentError> {
+fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport, ExperimentError> {
     let mut pictures = Vec::new();
     let run = run::job(job, |shown| {
         pictures.extend(panels(shown));
@@ -150,7 +150,7 @@ fn tell(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<Told, Experim
         rows: run.frames.iter().map(row).collect(),
         notes,
     };
-    Ok(Told { run, story, gain })
+    Ok(SceneReport { run, story, gain })
 }
 
 fn budget_line(run: &RunReport) -> String {

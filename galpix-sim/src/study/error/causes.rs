@@ -1,11 +1,11 @@
 //! The error of one configuration, frame by frame, split into its causes.
 //!
 //! A shown galpixel is away from its true place by a sum of steps: true motion → exact second-order path (*Taylor*:
-//! what second order cannot know) → exact path of the lanes kept (*left out*) → the path of what was stored
+//! what second order cannot know) → exact path of the fields kept (*left out*) → the path of what was stored
 //! (*quantisation*) → where the engine is (*drift*; for galpixels that a range stopped: *saturation*) → the cell that
-//! shows it (*snap*). Of each step the mean over the galpixels is told, of each galpixel the worse of x and y; since
-//! steps may cancel, they add up to at least the error as a whole. What nothing reached is no place but a hole: holes
-//! are told in the squared error of the picture.
+//! shows it (*snap*). For each step the mean over the galpixels is
+//! reported, and of each galpixel the larger of x and y; steps may cancel, so they add up to at least the whole error.
+//! Cells that nothing reached are holes, and count in the squared error of the picture.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
 use serde::Serialize;
@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::design::Configuration;
 use super::measure::apart;
 use super::ranges::Stored;
-use super::reference::{Reference, way};
+use super::reference::{Reference, displacement};
 use crate::engine::{Engine, EngineError};
 use crate::picture::Picture;
 use crate::source::Source;
@@ -26,7 +26,7 @@ pub struct FrameCauses {
     pub frame: u32,
     /// What second order cannot know; not known where the true motion is not.
     pub taylor_px: Option<f64>,
-    /// What lanes that were left out would have moved.
+    /// What fields that were left out would have moved.
     pub left_out_px: f64,
     /// From storing velocity and acceleration in few bits.
     pub quantisation_px: f64,
@@ -49,12 +49,12 @@ pub struct FrameCauses {
     pub mse_hold: Option<f64>,
 }
 
-/// A true picture, and what was shown beside it.
+/// A true picture, and what was shown.
 pub type Pair = (Truth, Picture);
 
-/// The causes of every frame of a configuration, and its pictures where the truth of a capture is known.
+/// Returns the causes of every frame of a configuration, and its pictures where the truth of a capture is known.
 ///
-/// *Errors:* a budget that does not fit the lanes.
+/// *Errors:* a budget that does not fit the fields.
 pub fn causes(
     reference: &Reference<'_>,
     configuration: &Configuration,
@@ -64,7 +64,7 @@ pub fn causes(
     let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.frames as usize);
     let mut pairs = Vec::new();
-    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.rung.inpaint());
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.fill.inpaint());
     engine.run(&reference.update, reference.frames, |frame| {
         if frame.number == 0 {
             return;
@@ -101,11 +101,11 @@ fn places(
     for (origin, place) in places {
         let Some(sample) = reference.update.samples.get(origin as usize) else { continue };
         let from = reference.from(origin);
-        let after = |way: [f64; 2]| [from[0] + way[0], from[1] + way[1]];
-        let second_order = after(way(sample, Layout::FULL, frame));
-        let kept = after(way(sample, layout, frame));
+        let after = |displacement: [f64; 2]| [from[0] + displacement[0], from[1] + displacement[1]];
+        let second_order = after(displacement(sample, Layout::FULL, frame));
+        let kept = after(displacement(sample, layout, frame));
         let stored = [0, 1].map(|axis| Stored::of(sample, axis, bits, layout, frame));
-        let path = after(stored.map(|stored| stored.way(frame)));
+        let path = after(stored.map(|stored| stored.displacement(frame)));
         // The best-fitting cell: halves towards +infinity.
         let cell = place.map(|coordinate| (coordinate + 0.5).floor());
         let truth = reference.track(origin, frame);
@@ -136,8 +136,8 @@ fn places(
     }
 }
 
-/// The squared error per channel of the cells that were reached, and of those that were not, each by the number of all
-/// cells that count: together they are the mean squared error.
+/// Returns the squared error per channel of the cells that were reached, and of those that were not, each by the number
+/// of all cells that count: together they are the mean squared error.
 fn squares(picture: &Picture, truth: &Truth, reached: &[bool]) -> [f64; 2] {
     let (mut sums, mut cells) = ([0.0; 2], 0u64);
     for (index, (shown, is)) in picture.pixels.iter().zip(&truth.picture.pixels).enumerate() {

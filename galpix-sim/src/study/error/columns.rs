@@ -1,4 +1,4 @@
-//! The columns of the points: a line a point, and in the CSV one for sample-and-hold of each source.
+//! The columns of the points: a line per point, and in the CSV one for sample-and-hold of each source.
 
 use super::frames::Summary;
 use super::report::{Point, Scheme, SourceReport};
@@ -35,7 +35,7 @@ impl<'r> Row<'r> {
         }
     }
 
-    /// The budget, or that there is none.
+    /// Returns the budget, or that there is none.
     fn budget(&self) -> Value {
         self.of(|point| if point.scheme == Scheme::F32 { "f32" } else { point.budget.as_str() })
     }
@@ -44,17 +44,17 @@ impl<'r> Row<'r> {
         self.of(|point| point.bits.map(|bits| bits[place]))
     }
 
-    /// The time of a product's form.
+    /// Returns the time of a product's form.
     fn compiled(&self, of: fn(Time) -> f64) -> Value {
         self.of(|point| point.compile_time.map(of))
     }
 
-    /// The time of the simulator's form.
+    /// Returns the time of the simulator's form.
     fn run(&self, of: fn(Time) -> f64) -> Value {
         self.of(|point| point.run_time.map(of))
     }
 
-    /// Whether it is on a front.
+    /// Returns whether it is on a front.
     fn on(&self, front: &[usize]) -> Value {
         self.of(|point| front.contains(&point.id))
     }
@@ -75,18 +75,18 @@ pub fn columns<'r>() -> Vec<Column<Row<'r>>> {
     columns
 }
 
-/// What a point is.
+/// Returns what a point is.
 fn kinds<'r>() -> [Column<Row<'r>>; 9] {
     [
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
         Column::new(|row: &Row| row.of(|point| point.id)).csv("id").terminal("no", 0),
         Column::new(|row: &Row| row.name.as_str().into()).page("", 0),
         Column::new(|row: &Row| row.scheme()).csv("scheme"),
-        Column::new(|row: &Row| row.of(|point| point.lanes)).csv("lanes").both("lanes", 0).words(),
+        Column::new(|row: &Row| row.of(|point| point.fields)).csv("lanes").both("lanes", 0).words(),
         Column::new(|row: &Row| row.of(|point| point.budget.as_str())).csv("budget"),
         Column::new(|row: &Row| row.budget()).both("budget", 0).words(),
         Column::new(|row: &Row| row.of(|point| point.rounding)).csv("rounding").both("rounding", 0).words(),
-        Column::new(|row: &Row| row.of(|point| point.rung)).csv("rung").both("rung", 0).words(),
+        Column::new(|row: &Row| row.of(|point| point.fill)).csv("rung").both("rung", 0).words(),
     ]
 }
 
@@ -123,7 +123,7 @@ fn times<'r>() -> [Column<Row<'r>>; 7] {
     ]
 }
 
-/// What the frames gave. The mean stands behind the bound on the page.
+/// Returns the columns of the results of the frames. On the page the mean follows the bound.
 fn errors<'r>() -> [Column<Row<'r>>; 16] {
     [
         Column::new(|row: &Row| row.summary(|all| all.worst_px)).csv("worst_px").both("worst px", 4),

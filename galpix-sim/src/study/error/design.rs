@@ -7,7 +7,7 @@ use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding}
 use super::ranges::Ranges;
 use crate::engine::fill::Fill;
 
-/// Which lanes a galpixel carries beside its class and colour.
+/// Which fields a galpixel carries besides its class and colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kept {
     /// None: the picture stands still.
@@ -29,7 +29,7 @@ impl Kept {
     pub const ALL: [Self; 6] =
         [Self::Still, Self::Velocity, Self::VelocityDepth, Self::Acceleration, Self::Full, Self::Luminosity];
 
-    /// The name on the command line.
+    /// Returns the name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -42,7 +42,7 @@ impl Kept {
         }
     }
 
-    /// The layout.
+    /// Returns the layout.
     #[must_use]
     pub const fn layout(self) -> Layout {
         match self {
@@ -71,7 +71,7 @@ impl Step {
     /// As derived.
     pub const DERIVED: Self = Self { position: 0, motion: 0, fitted: false };
 
-    /// What it does, in a few words.
+    /// Returns what it does, in a few words.
     #[must_use]
     pub fn name(self) -> String {
         let fractions = match (self.position, self.motion) {
@@ -89,7 +89,7 @@ impl Step {
         }
     }
 
-    /// The widths for a layout. Without acceleration these depart from [`Bits::derive_without_acceleration`].
+    /// Returns the widths for a layout. Without acceleration these depart from [`Bits::derive_without_acceleration`].
     ///
     /// *Errors:* a demand that gives no budget, a step that leaves none.
     pub fn bits(self, demand: Demand, layout: Layout, ranges: &Ranges) -> Result<Bits, BudgetError> {
@@ -122,14 +122,14 @@ impl Step {
 /// One way to run the engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Configuration {
-    /// The lanes.
+    /// The fields.
     pub kept: Kept,
     /// The budget.
     pub step: Step,
     /// The rounding of positions.
     pub rounding: Rounding,
     /// What is put into holes.
-    pub rung: Fill,
+    pub fill: Fill,
 }
 
 /// How much is measured.
@@ -142,24 +142,24 @@ pub enum Extent {
     /// One axis at a time, and the combinations that may lie on a front.
     #[default]
     Sensible,
-    /// All lanes by all roundings by all rungs, and all budgets by all roundings.
+    /// All fields by all roundings by all fill modes, and all budgets by all roundings.
     Full,
 }
 
 /// What may be chosen from, each from cheap to rich and none of them empty.
 #[derive(Clone, Debug)]
 pub struct Axes {
-    /// Lanes.
+    /// Fields.
     pub kept: Vec<Kept>,
     /// Roundings.
     pub roundings: Vec<Rounding>,
-    /// Rungs.
-    pub rungs: Vec<Fill>,
+    /// Fill modes.
+    pub fills: Vec<Fill>,
 }
 
 impl Axes {
-    /// Around what one axis at a time is varied: the richest lanes and rung, and the default rounding where it may be
-    /// chosen.
+    /// Around what one axis at a time is varied: the richest fields and fill mode, and the default rounding where it
+    /// may be chosen.
     #[must_use]
     pub fn middle(&self) -> Configuration {
         let rounding = Rounding::default();
@@ -171,11 +171,11 @@ impl Axes {
             } else {
                 self.roundings.last().copied().unwrap_or_default()
             },
-            rung: self.rungs.last().copied().unwrap_or_default(),
+            fill: self.fills.last().copied().unwrap_or_default(),
         }
     }
 
-    /// The configurations, none twice, the middle first.
+    /// Returns the configurations, none twice, the middle first.
     #[must_use]
     pub fn design(&self, extent: Extent) -> Vec<Configuration> {
         let middle = self.middle();
@@ -196,18 +196,18 @@ impl Axes {
             if extent != Extent::Sparing || kept == middle.kept {
                 chosen.push(Configuration { kept, step: fitted, ..middle });
             }
-            for &rung in &self.rungs {
-                let telling = matches!(rung, Fill::Rung(FillMode::Hold | FillMode::Bullet)) || rung == middle.rung;
+            for &fill in &self.fills {
+                let telling = matches!(fill, Fill::Mode(FillMode::Hold | FillMode::Bullet)) || fill == middle.fill;
                 match extent {
-                    Extent::Quick if !telling || rung == Fill::Rung(FillMode::Bullet) => continue,
-                    Extent::Sparing if kept != middle.kept && (!telling || rung == Fill::Rung(FillMode::Bullet)) => {
+                    Extent::Quick if !telling || fill == Fill::Mode(FillMode::Bullet) => continue,
+                    Extent::Sparing if kept != middle.kept && (!telling || fill == Fill::Mode(FillMode::Bullet)) => {
                         continue;
                     }
                     Extent::Sensible if !telling && kept != middle.kept => continue,
-                    _ => chosen.push(Configuration { kept, rung, ..middle }),
+                    _ => chosen.push(Configuration { kept, fill, ..middle }),
                 }
                 if extent == Extent::Full {
-                    let each = |&rounding: &Rounding| Configuration { kept, rung, rounding, ..middle };
+                    let each = |&rounding: &Rounding| Configuration { kept, fill, rounding, ..middle };
                     chosen.extend(self.roundings.iter().map(each));
                 }
             }
@@ -218,7 +218,7 @@ impl Axes {
     }
 }
 
-/// The ladder of budgets.
+/// Returns the ladder of budgets.
 fn steps(extent: Extent) -> Vec<Step> {
     let by: &[i32] = match extent {
         Extent::Quick => &[-2, 1],
@@ -242,7 +242,7 @@ mod tests {
         Axes {
             kept: Kept::ALL[..5].to_vec(),
             roundings: Rounding::ALL.to_vec(),
-            rungs: FillMode::ALL.map(Fill::from).to_vec(),
+            fills: FillMode::ALL.map(Fill::from).to_vec(),
         }
     }
 
@@ -266,11 +266,11 @@ mod tests {
         let one = Axes {
             kept: vec![Kept::Velocity],
             roundings: vec![Rounding::Truncate],
-            rungs: vec![FillMode::Hold.into()],
+            fills: vec![FillMode::Hold.into()],
         };
         for configuration in one.design(Extent::Full) {
             assert_eq!(
-                (configuration.kept, configuration.rounding, configuration.rung),
+                (configuration.kept, configuration.rounding, configuration.fill),
                 (Kept::Velocity, Rounding::Truncate, FillMode::Hold.into())
             );
         }

@@ -27,7 +27,7 @@ pub fn all(source: &SourceReport) -> Markup {
     }
 }
 
-/// The letter of the `place`-th point of a front.
+/// Returns the letter of the `place`-th point of a front.
 pub fn letter(place: usize) -> String {
     let letter = char::from(b'A' + (place % 26) as u8);
     if place < 26 { letter.to_string() } else { format!("{letter}{}", place / 26) }
@@ -175,7 +175,7 @@ fn causes(source: &SourceReport) -> Markup {
         layer("quantisation", Ink::Known, &|frame| frame.quantisation_px),
         layer("rounding drift", Ink::Galpix, &|frame| frame.drift_px),
         layer("saturation", Ink::Bound, &|frame| frame.saturation_px),
-        layer("lanes left out", Ink::Hold, &|frame| frame.left_out_px),
+        layer("fields left out", Ink::Hold, &|frame| frame.left_out_px),
         layer("Taylor: beyond second order", Ink::Holes, &|frame| frame.taylor_px.unwrap_or(0.0)),
     ];
     layers.retain(|layer| layer.figures.iter().any(|&figure| figure > 0.0));
@@ -209,7 +209,7 @@ fn squares(source: &SourceReport) -> Markup {
     };
     let layers = vec![
         layer("cells that a galpixel reached", Ink::Galpix, &|frame| frame.mse_reached),
-        layer("holes, as the rung fills them", Ink::Holes, &|frame| frame.mse_missing),
+        layer("holes, as the fill mode fills them", Ink::Holes, &|frame| frame.mse_missing),
     ];
     let hold = layer("sample-and-hold", Ink::Hold, &|frame| frame.mse_hold);
     let legend = stack_key(&layers, &hold, Ink::Hold);

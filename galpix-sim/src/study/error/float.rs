@@ -1,9 +1,9 @@
 //! The same scheme in 32-bit floats: what one would build without a bit budget. It is meant to be a fair opponent.
 //!
-//! A pixel is a packed struct of exactly the lanes that it needs (24 bytes with velocity in x and y, 40 with everything
-//! but the luminosity); position and velocity take the same step as in the engine, the nearer wins and the smaller
-//! source wins a tie, and holes are left black (`none`) or keep what was shown (`hold`). The rungs that tell surfaces
-//! apart are not built.
+//! A pixel is a packed struct of exactly the fields that it needs (24 bytes with velocity in x and y, 40 with
+//! everything but the luminosity); position and velocity take the same step as in the engine, the nearer wins and the
+//! smaller source wins a tie, and holes are left black (`none`) or keep what was shown (`hold`). The fill modes that
+//! tell surfaces apart are not built.
 
 use std::mem::size_of;
 
@@ -14,8 +14,8 @@ use crate::picture::Picture;
 use crate::study::timing::Contender;
 use crate::update::{Known, Sample, Update};
 
-/// In an origin map: nobody of the update.
-pub const NOBODY: u32 = u32::MAX;
+/// In an origin map: no galpixel of the update.
+pub const NO_ORIGIN: u32 = u32::MAX;
 
 /// A pixel with `V` velocities, `A` accelerations and `L` numbers of luminosity (its level's fraction and its rate).
 #[derive(Clone, Copy, Debug)]
@@ -34,15 +34,15 @@ struct Pixel<const V: usize, const A: usize, const L: usize> {
 /// What a cell shows, and its offset if a pixel is there.
 pub type Cell = ([u8; 3], Option<[f32; 2]>);
 
-/// Memory for one map and its follower, for any lanes.
+/// Memory for one map and its follower, for any fields.
 pub trait Floats {
-    /// Bytes of a pixel.
+    /// Returns the bytes of a pixel.
     fn bytes_per_pixel(&self) -> usize;
     /// Writes an update into the map that is shown.
     fn load(&mut self, update: &Update);
     /// Makes the next frame and shows it; `winners`, if not empty, gets the source of each cell.
-    fn step(&mut self, rung: FillMode, winners: &mut [u32]);
-    /// Every cell of the map.
+    fn step(&mut self, fill_mode: FillMode, winners: &mut [u32]);
+    /// Returns every cell of the map.
     fn cells(&self) -> Vec<Cell>;
 }
 
@@ -52,7 +52,7 @@ struct Maps<const V: usize, const A: usize, const L: usize> {
     width: usize,
 }
 
-/// Maps of a size for some lanes; `None` without lanes that move.
+/// Returns the maps of a size for some fields; `None` without fields that move.
 #[must_use]
 pub fn maps(kept: Kept, width: usize, height: usize) -> Option<Box<dyn Floats>> {
     fn new<const V: usize, const A: usize, const L: usize>(width: usize, height: usize) -> Option<Box<dyn Floats>> {
@@ -70,7 +70,7 @@ pub fn maps(kept: Kept, width: usize, height: usize) -> Option<Box<dyn Floats>> 
 }
 
 impl<const V: usize, const A: usize, const L: usize> Pixel<V, A, L> {
-    /// A hole that shows a colour.
+    /// Creates a hole that shows a colour.
     fn shown(rgb: u32) -> Self {
         Self {
             offset: [0.0; 2],
@@ -149,17 +149,17 @@ impl<const V: usize, const A: usize, const L: usize> Floats for Maps<V, A, L> {
         }
     }
 
-    fn step(&mut self, rung: FillMode, winners: &mut [u32]) {
+    fn step(&mut self, fill_mode: FillMode, winners: &mut [u32]) {
         let (width, height) = (self.width, self.front.len() / self.width.max(1));
         // A hole shows black, or goes on showing what was shown there.
-        if rung == FillMode::None {
+        if fill_mode == FillMode::None {
             self.back.fill(Pixel::shown(0));
         } else {
             for (to, from) in self.back.iter_mut().zip(&self.front) {
                 *to = Pixel::shown(from.argb);
             }
         }
-        winners.fill(NOBODY);
+        winners.fill(NO_ORIGIN);
         for (y, row) in self.front.chunks_exact(width.max(1)).enumerate() {
             for (x, pixel) in row.iter().enumerate() {
                 if !pixel.present() {
@@ -206,15 +206,15 @@ pub struct FloatFrame {
 }
 
 /// Extrapolates an update in floats up to the last of the frames that `wanted` names; `visit` sees these.
-pub fn run(update: &Update, kept: Kept, rung: FillMode, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
+pub fn run(update: &Update, kept: Kept, fill_mode: FillMode, wanted: &[u32], mut visit: impl FnMut(FloatFrame)) {
     let Some(mut maps) = maps(kept, update.width, update.height) else { return };
     maps.load(update);
-    let known = |(cell, sample): (u32, &Sample)| if sample.known == Known::Motion { cell } else { NOBODY };
+    let known = |(cell, sample): (u32, &Sample)| if sample.known == Known::Motion { cell } else { NO_ORIGIN };
     let mut origins: Vec<u32> = (0..).zip(&update.samples).map(known).collect();
-    let mut winners = vec![NOBODY; origins.len()];
+    let mut winners = vec![NO_ORIGIN; origins.len()];
     for number in 1..=wanted.iter().copied().max().unwrap_or(0) {
-        maps.step(rung, &mut winners);
-        origins = winners.iter().map(|&winner| origins.get(winner as usize).copied().unwrap_or(NOBODY)).collect();
+        maps.step(fill_mode, &mut winners);
+        origins = winners.iter().map(|&winner| origins.get(winner as usize).copied().unwrap_or(NO_ORIGIN)).collect();
         if wanted.contains(&number) {
             visit(frame(update, number, &maps.cells(), &origins));
         }
@@ -223,12 +223,12 @@ pub fn run(update: &Update, kept: Kept, rung: FillMode, wanted: &[u32], mut visi
 
 fn frame(update: &Update, number: u32, cells: &[Cell], origins: &[u32]) -> FloatFrame {
     let (width, height) = (update.display_width(), update.display_height());
-    let rows = || (0..height).map(|y| (y + update.wings.top) * update.width + update.wings.left);
+    let rows = || (0..height).map(|y| (y + update.margin.top) * update.width + update.margin.left);
     let pixels = rows().flat_map(|row| cells[row..row + width].iter().map(|cell| cell.0)).collect();
-    let reached = rows().flat_map(|row| origins[row..row + width].iter().map(|&origin| origin != NOBODY)).collect();
+    let reached = rows().flat_map(|row| origins[row..row + width].iter().map(|&origin| origin != NO_ORIGIN)).collect();
     let place = |index: usize| {
         let origin = origins[index];
-        let [x, y] = cells[index].1.filter(|_| origin != NOBODY)?.map(f64::from);
+        let [x, y] = cells[index].1.filter(|_| origin != NO_ORIGIN)?.map(f64::from);
         Some((origin, [(index % update.width) as f64 + x, (index / update.width) as f64 + y]))
     };
     let places = (0..cells.len()).filter_map(place).collect();
@@ -240,7 +240,7 @@ pub struct InFloats {
     /// The maps.
     pub maps: Box<dyn Floats>,
     /// What is put into holes.
-    pub rung: FillMode,
+    pub fill_mode: FillMode,
     /// Pixels of a map.
     pub cells: usize,
 }
@@ -255,6 +255,6 @@ impl Contender for InFloats {
     }
 
     fn step(&mut self) {
-        self.maps.step(self.rung, &mut []);
+        self.maps.step(self.fill_mode, &mut []);
     }
 }

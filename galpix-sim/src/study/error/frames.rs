@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::metric::stats;
 
-/// A frame as a picture, beside the truth.
+/// A frame as a picture, compared with the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PictureError {
     /// PSNR, decibels.
@@ -29,11 +29,11 @@ pub struct FrameError {
     pub galpixels: u32,
     /// Of these, those that a range had to stop: outside of the certificate.
     pub saturated_galpixels: u32,
-    /// The worst of the others, against the exact path of the lanes that are kept: at most `certified_px`.
+    /// The worst of the others, against the exact path of the fields that are kept: at most `certified_px`.
     pub kept_worst_px: Option<f64>,
     /// The certificate for this frame; none for floats and beyond `tau_prop`.
     pub certified_px: Option<f64>,
-    /// What the lanes that are left out would at most have moved a galpixel by.
+    /// What the fields that are left out would at most have moved a galpixel by.
     pub left_out_px: f64,
     /// The worst of all, against the exact second-order path.
     pub worst_px: Option<f64>,
@@ -48,7 +48,7 @@ pub struct FrameError {
 }
 
 impl FrameError {
-    /// A frame of which nothing is known yet.
+    /// Creates a frame of which nothing is known yet.
     #[must_use]
     pub const fn at(frame: u32) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! The legends of the plots: rungs by colour, roundings by shape, bytes by size.
+//! The legends of the plots: fill modes by colour, roundings by shape, bytes by size.
 
 use galpix_core::Rounding;
 use maud::{Markup, PreEscaped, html};
@@ -11,15 +11,15 @@ use crate::output::html::style::Ink;
 use crate::output::html::text::Text;
 use crate::study::ink;
 
-/// The colour of a point.
+/// Returns the colour of a point.
 pub fn ink(point: &Point) -> Ink {
     if point.scheme == Scheme::F32 {
         return Ink::Label;
     }
-    ink::named(point.rung).unwrap_or_else(|| ink::of(Fill::default()))
+    ink::named(point.fill).unwrap_or_else(|| ink::of(Fill::default()))
 }
 
-/// The shape of a point.
+/// Returns the shape of a point.
 pub fn shape(point: &Point) -> Shape {
     let rounding = Rounding::ALL.into_iter().find(|rounding| Some(rounding.name()) == point.rounding);
     rounding.map_or(Shape::Cross, rounding_shape)
@@ -34,7 +34,7 @@ const fn rounding_shape(rounding: Rounding) -> Shape {
     }
 }
 
-/// The area of a mark grows with the bytes.
+/// Returns the radius of a mark, whose area grows with the bytes.
 pub fn radius(bytes: usize) -> f64 {
     1.35 * (bytes as f64).sqrt()
 }
@@ -48,10 +48,10 @@ fn mark_key(name: &str, shape: Shape, ink: Ink, radius: f64) -> Markup {
     html! { span { (PreEscaped(scatter::key(shape, ink, radius))) (Text(name)) } " " }
 }
 
-/// Returns the legend of the points: rungs by colour, roundings by shape, bytes by size.
+/// Returns the legend of the points: fill modes by colour, roundings by shape, bytes by size.
 pub fn key(source: &SourceReport, bounds: bool) -> Markup {
     let points = &source.points;
-    let used = |fill: &Fill| points.iter().any(|p| p.scheme == Scheme::Galpix && p.rung == fill.name());
+    let used = |fill: &Fill| points.iter().any(|p| p.scheme == Scheme::Galpix && p.fill == fill.name());
     let rounded = |rounding: &Rounding| points.iter().any(|point| point.rounding == Some(rounding.name()));
     let sizes = points.iter().map(|point| point.bytes);
     let ends = sizes.clone().min().into_iter().chain(sizes.max());

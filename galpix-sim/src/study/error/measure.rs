@@ -6,7 +6,7 @@ use super::design::Configuration;
 use super::float;
 use super::frames::{FrameError, PictureError};
 use super::ranges::Stored;
-use super::reference::{Reference, way};
+use super::reference::{Reference, displacement};
 use crate::engine::{Engine, EngineError, LoadTally};
 use crate::metric;
 use crate::picture::Picture;
@@ -23,7 +23,7 @@ pub struct Measured {
 
 /// Runs a configuration and looks at it. `bits` are its widths.
 ///
-/// *Errors:* a budget that does not fit the lanes, an update that cannot be laid out.
+/// *Errors:* a budget that does not fit the fields, an update that cannot be laid out.
 pub fn engine(
     reference: &Reference<'_>,
     configuration: &Configuration,
@@ -31,7 +31,7 @@ pub fn engine(
     settings: Settings,
 ) -> Result<Measured, EngineError> {
     let layout = configuration.kept.layout();
-    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.rung.inpaint());
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.fill.inpaint());
     let mut frames = Vec::with_capacity(reference.looked.len());
     let mut saturated = 0;
     let loaded = engine.run(&reference.update, reference.frames, |frame| {
@@ -45,13 +45,13 @@ pub fn engine(
     Ok(Measured { loaded, saturated, frames })
 }
 
-/// Runs the floats with the lanes and the rung of a configuration and looks at them.
+/// Runs the floats with the fields and the fill mode of a configuration and looks at them.
 #[must_use]
 pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measured {
     let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.looked.len());
     let Reference { update, looked, .. } = reference;
-    float::run(update, configuration.kept, configuration.rung.rung(), looked, |frame| {
+    float::run(update, configuration.kept, configuration.fill.mode(), looked, |frame| {
         let mut error = positions(reference, frame.number, layout, None, frame.places.iter().copied());
         error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
         frames.push(error);
@@ -92,8 +92,8 @@ fn positions(
     for (origin, place) in places {
         let Some(sample) = reference.update.samples.get(origin as usize) else { continue };
         let from = reference.from(origin);
-        let after = |way: [f64; 2]| [from[0] + way[0], from[1] + way[1]];
-        let second_order = apart(place, after(way(sample, Layout::FULL, frame)));
+        let after = |displacement: [f64; 2]| [from[0] + displacement[0], from[1] + displacement[1]];
+        let second_order = apart(place, after(displacement(sample, Layout::FULL, frame)));
         worst = worst.max(second_order);
         sum += second_order;
         count += 1;
@@ -101,7 +101,7 @@ fn positions(
         let fits =
             bits.is_none_or(|bits| [0, 1].iter().all(|&axis| Stored::of(sample, axis, bits, layout, frame).fits));
         if fits {
-            kept_worst = kept_worst.max(apart(place, after(way(sample, layout, frame))));
+            kept_worst = kept_worst.max(apart(place, after(displacement(sample, layout, frame))));
         } else {
             error.saturated_galpixels += 1;
         }

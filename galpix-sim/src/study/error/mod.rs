@@ -1,4 +1,4 @@
-//! Error against run time: what each bit, lane, rounding and rung costs and gains on a scene or a capture.
+//! Error against run time: what each bit, field, rounding and fill mode costs and gains on a scene or a capture.
 //!
 //! ```text
 //! design (configurations) ─┬─▶ measure (error of each) ──┐
@@ -7,7 +7,7 @@
 //!            causes (frame by frame) and rates (updates every N frames) for the middle configuration
 //! ```
 //!
-//! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
+//! Errors are measured on all processors, times afterwards on one, each relative to a memory copy.
 
 pub mod causes;
 mod columns;
@@ -45,14 +45,14 @@ use report::{DemandReport, Fronts, Point, Scheme, SourceReport};
 /// What to measure.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Frames, the design numbers, and the edge threshold; its rounding and its rung do not count.
+    /// Frames, the design numbers, and the edge threshold; its rounding and its fill mode do not count.
     pub request: Request,
-    /// Lanes to choose from; those that the source has no use for are dropped unless nothing else is left.
+    /// Fields to choose from; those that the source has no use for are dropped unless nothing else is left.
     pub kept: Vec<Kept>,
     /// Roundings to choose from.
     pub roundings: Vec<Rounding>,
-    /// Rungs to choose from.
-    pub rungs: Vec<Fill>,
+    /// Fill modes to choose from.
+    pub fills: Vec<Fill>,
     /// How many configurations.
     pub extent: Extent,
 }
@@ -79,7 +79,7 @@ impl Study for Plan {
     }
 
     fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
-        study(job, self, stage.tell).map(Found::Report).map_err(StudyError::unusable)
+        study(job, self, stage.notify).map(Found::Report).map_err(StudyError::unusable)
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -97,10 +97,10 @@ impl Study for Plan {
 }
 
 impl Plan {
-    /// Resolves what is asked of a source, with the lanes of the middle configuration, and checks that the lanes of the
-    /// others have a budget too.
+    /// Resolves what is asked of a source, with the fields of the middle configuration, and checks that the fields of
+    /// the others have a budget too.
     ///
-    /// *Errors:* a demand or lanes that give no budget.
+    /// *Errors:* a demand or fields that give no budget.
     fn job<'s>(&self, source: &'s Source) -> Result<Job<'s>, ExperimentError> {
         let job = Job::with_layout(source, &self.request, |update| self.axes(update).middle().kept.layout())?;
         for kept in self.axes(&job.update).kept {
@@ -115,16 +115,16 @@ impl Plan {
         let lit = update.samples.iter().any(|sample| sample.known == Known::Motion && sample.luminosity_rate != 0.0);
         let useful: Vec<Kept> = self.kept.iter().copied().filter(|&kept| lit || kept != Kept::Luminosity).collect();
         let kept = if useful.is_empty() { self.kept.clone() } else { useful };
-        Axes { kept, roundings: self.roundings.clone(), rungs: self.rungs.clone() }
+        Axes { kept, roundings: self.roundings.clone(), fills: self.fills.clone() }
     }
 }
 
 /// Cells that are timed in a round, for one configuration.
 const TIMED_CELLS: usize = 1_500_000;
-/// From so many cells on, a source is measured sparingly unless more is asked for.
+/// A source with at least so many cells is measured sparingly unless more is requested.
 const LARGE: usize = 100_000;
 
-/// A source on its way to a report.
+/// A source while it is measured.
 pub(crate) struct Run<'s> {
     job: &'s Job<'s>,
     reference: Reference<'s>,
@@ -138,8 +138,8 @@ impl Run<'_> {
     }
 }
 
-/// Measures a source; `tell` is told how it gets on.
-fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
+/// Measures a source; `notify` is called with the progress.
+fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
     let Job { source, frames, demand, .. } = *job;
     let reference = Reference::with_update(source, job.update.clone(), frames);
     let update = &reference.update;
@@ -160,17 +160,17 @@ fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result
         }
         extent => extent,
     };
-    let points = run.points(&axes.design(extent), &mut left_out, tell)?;
+    let points = run.points(&axes.design(extent), &mut left_out, notify)?;
 
     let middle = axes.middle();
-    let job = job.with_rounding(middle.rounding).with_fill(middle.rung);
-    tell(Work::Ahead(1));
+    let job = job.with_rounding(middle.rounding).with_fill(middle.fill);
+    notify(Work::Ahead(1));
     let (causes, shown) = causes::causes(&run.reference, &middle, job.bits, job.settings)?;
     let rates = match source {
         Source::Scene(scene) => rates::rates(*scene, frames, &job.engine())?,
         Source::Capture(_) => Vec::new(),
     };
-    tell(Work::Done);
+    notify(Work::Done);
     let ages = if rates.is_empty() { rates::ages(&run.reference.hold, &shown) } else { Vec::new() };
     let hold = Summary::of(&measure::hold(&run.reference));
     left_out.extend(omissions(&run, source, middle));
@@ -204,7 +204,7 @@ fn study(job: &Job<'_>, plan: &Plan, tell: &(dyn Fn(Work<'_>) + Sync)) -> Result
     })
 }
 
-/// The three fronts, as numbers of points. The floats are beside them, not on them.
+/// Returns the three fronts, as numbers of points. Floats are not among them.
 fn fronts(points: &[Point]) -> Fronts {
     type Cost<'c> = &'c dyn Fn(&Point) -> (Option<f64>, Option<f64>);
     let front = |cost: Cost<'_>| {
@@ -220,7 +220,7 @@ fn fronts(points: &[Point]) -> Fronts {
     }
 }
 
-/// What was left out and what cannot be known, a sentence each.
+/// Returns what was left out and what cannot be known, a sentence each.
 fn omissions(run: &Run<'_>, source: &Source, middle: Configuration) -> Vec<String> {
     let reference = &run.reference;
     let mut left_out = vec![format!(
@@ -256,9 +256,9 @@ fn omissions(run: &Run<'_>, source: &Source, middle: Configuration) -> Vec<Strin
             }
         }
     }
-    left_out.push("Floats have the rungs hold and, with the richest lanes, none.".to_owned());
+    left_out.push("Floats have the fill modes hold and, with the richest fields, none.".to_owned());
     if middle.kept.layout() != Layout::FULL && middle.kept != Kept::Luminosity {
-        left_out.push(format!("The causes and the rates are those of lanes {}.", middle.kept.name()));
+        left_out.push(format!("The causes and the rates are those of fields {}.", middle.kept.name()));
     }
     left_out
 }

@@ -15,8 +15,8 @@ use crate::output::html::{self as page, Head};
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
-        "Each point is one way to run the engine: a bit budget, the lanes that a galpixel carries, a rounding, and a rung of \
-         the ladder that fills holes. To the right: what a frame costs. Upwards: how wrong it gets. What lies at the lower \
+        "Each point is one way to run the engine: a bit budget, the fields that a galpixel carries, a rounding, and a \
+         fill mode. To the right: what a frame costs. Upwards: how wrong it gets. What lies at the lower \
          left is better in both; what nothing beats is on the front and has a letter."
             .to_owned(),
     ];
@@ -29,13 +29,13 @@ pub fn html(document: &Document) -> String {
 }
 
 const READING: &str = "\
-<li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median, beside a memory copy of \
-the same bytes in the same run (<b>\u{00D7} copy</b>). It was measured with a stand-in of the same lanes and the nearest number \
+<li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median, relative to a memory copy of \
+the same bytes in the same run (<b>\u{00D7} copy</b>). It was measured with a stand-in of the same fields and the nearest number \
 of words, on the same pictures; single bits hardly matter to it. <b>Run-time form</b> is the simulator\u{2019}s own, with the \
 budget chosen at run time.</li>\
 <li><b>Position error</b> is that of the worst galpixel against the exact second-order path of the update, before the snap to a \
 cell. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick above a point</span> is what it can at most be: the certificate, \
-and what the lanes that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
+and what the fields that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
 <li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>Missing</b> cells are those that no galpixel of the \
 update reached, before filling. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
 
@@ -43,8 +43,8 @@ const LEFT_OUT: [&str; 4] = [
     "Depth has the same steps as x and y; budgets that shave depth alone were not tried.",
     "The memory copy is one of aligned memory by the C library; where a map fits into a cache, so does the copy, and the ratio \
      is that of two things in the cache.",
-    "Floats are not tried with the rungs that tell surfaces apart, and galpix is not tried with several threads.",
-    "error.csv and error.json beside this page hold every figure.",
+    "Floats are not tried with the fill modes that tell surfaces apart, and galpix is not tried with several threads.",
+    "error.csv and error.json in this folder hold every figure.",
 ];
 
 fn section(index: usize, source: &SourceReport) -> Markup {
@@ -71,7 +71,7 @@ fn section(index: usize, source: &SourceReport) -> Markup {
     page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
 }
 
-/// What galpixels buy, in a sentence or two.
+/// Returns what galpixels buy, in a sentence or two.
 fn gain(source: &SourceReport) -> Markup {
     let better = |rate: &&Rate| rate.every > 1 && rate.hold_needs_every < rate.every;
     let mut needed: Vec<u32> = source.rates.iter().filter(better).map(|rate| rate.hold_needs_every).collect();

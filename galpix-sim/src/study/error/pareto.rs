@@ -1,8 +1,8 @@
-//! The Pareto front of two costs: what nothing else beats in both.
+//! The Pareto front of two costs: the points that no other beats in both.
 
-/// The indices of the points that no other point dominates, by rising first cost. A point dominates another if it is at
-/// most as large in both costs and smaller in one; of equal points the first stays. Points without two finite costs are
-/// not on the front.
+/// Returns the indices of the points that no other point dominates, by rising first cost. A point dominates another if
+/// it is at most as large in both costs and smaller in one; of equal points the first stays. Points without two finite
+/// costs are not on the front.
 #[must_use]
 pub fn front(costs: &[(Option<f64>, Option<f64>)]) -> Vec<usize> {
     let finite = |cost: Option<f64>| cost.filter(|cost| cost.is_finite());

@@ -24,17 +24,17 @@ struct Candidate {
 }
 
 impl Candidate {
-    /// Whether another one would do the same.
+    /// Returns whether another one would do the same.
     fn is(&self, other: &Self) -> bool {
-        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept, of.configuration.rung);
+        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept, of.configuration.fill);
         what(self) == what(other)
     }
 }
 
 impl Run<'_> {
-    /// How the frames of a configuration are made in maps of a stored form.
+    /// Returns how the frames of a configuration are made in maps of a stored form.
     pub(super) fn settings(&self, configuration: &Configuration, record: &Record) -> Settings {
-        let request = Request { rounding: configuration.rounding, fill: configuration.rung, ..self.job.request };
+        let request = Request { rounding: configuration.rounding, fill: configuration.fill, ..self.job.request };
         request.settings(record, self.job.update.depth_kind)
     }
 
@@ -45,12 +45,12 @@ impl Run<'_> {
         Ok(Candidate { configuration, bits, format, settings })
     }
 
-    /// Measures the configurations, and the floats beside them. What has no budget is left out, with a word on why.
+    /// Measures the configurations, and floats. What has no budget is left out, with the reason.
     pub(super) fn points(
         &self,
         design: &[Configuration],
         left_out: &mut Vec<String>,
-        tell: &(dyn Fn(Work<'_>) + Sync),
+        notify: &(dyn Fn(Work<'_>) + Sync),
     ) -> Result<Vec<Point>, ExperimentError> {
         let mut candidates: Vec<Candidate> = Vec::new();
         for &configuration in design {
@@ -60,41 +60,41 @@ impl Run<'_> {
                 Ok(new) => candidates.push(new),
                 Err(error) if configuration.step == Step::DERIVED => return Err(error.into()),
                 Err(error) => left_out.push(format!(
-                    "Budget {} with lanes {} does not exist: {error}.",
+                    "Budget {} with fields {} does not exist: {error}.",
                     configuration.step.name(),
                     configuration.kept.name()
                 )),
             }
         }
         let floats = Self::float_configurations(&candidates);
-        tell(Work::Ahead(candidates.len() as u64));
+        notify(Work::Ahead(candidates.len() as u64));
         let certificates = self.certificates(&candidates);
         let mut points: Vec<Point> = candidates
             .par_iter()
             .map(|candidate| {
                 let point = self.galpix(candidate, &certificates);
-                tell(Work::Done);
+                notify(Work::Done);
                 point
             })
             .collect::<Result<_, _>>()?;
         points.par_extend(floats.par_iter().map(|configuration| self.floats(configuration)));
-        self.time(&candidates, &floats, &mut points, tell);
+        self.time(&candidates, &floats, &mut points, notify);
         for (point, id) in points.iter_mut().zip(1..) {
             point.id = id;
         }
         Ok(points)
     }
 
-    /// The lanes of the candidates in floats, with the rungs that floats have.
+    /// Returns the fields of the candidates in floats, with the fill modes that floats have.
     fn float_configurations(candidates: &[Candidate]) -> Vec<Configuration> {
         let mut floats: Vec<Configuration> = Vec::new();
         let Some(middle) = candidates.first().map(|candidate| candidate.configuration.kept) else { return floats };
-        let none = candidates.iter().any(|candidate| candidate.configuration.rung == FillMode::None.into());
+        let none = candidates.iter().any(|candidate| candidate.configuration.fill == FillMode::None.into());
         for Candidate { configuration, .. } in candidates {
-            for rung in [FillMode::None, FillMode::Hold].map(Fill::from) {
-                // Black holes are for study: the richest lanes show them.
-                let shown = rung == FillMode::Hold.into() || none && configuration.kept == middle;
-                let float = Configuration { rung, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
+            for fill in [FillMode::None, FillMode::Hold].map(Fill::from) {
+                // Black holes are for study: the richest fields show them.
+                let shown = fill == FillMode::Hold.into() || none && configuration.kept == middle;
+                let float = Configuration { fill, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
                 if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
                     floats.push(float);
                 }
@@ -103,7 +103,7 @@ impl Run<'_> {
         floats
     }
 
-    /// The certificate of each kind of arithmetic among the candidates.
+    /// Returns the certificate of each kind of arithmetic among the candidates.
     fn certificates(&self, candidates: &[Candidate]) -> HashMap<Arithmetic, Certificate> {
         let mut kinds: Vec<(Arithmetic, &Candidate)> =
             candidates.iter().map(|candidate| (Arithmetic::of(candidate), candidate)).collect();
@@ -155,20 +155,20 @@ impl Run<'_> {
         Point { bytes, used_bits, ..point(Scheme::F32, configuration, measured.frames) }
     }
 
-    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each rung,
-    /// floats.
+    /// Times all points: each galpix point with its own budget chosen at run time, each stand-in once for each fill
+    /// mode, floats.
     fn time(
         &self,
         candidates: &[Candidate],
         floats: &[Configuration],
         points: &mut [Point],
-        tell: &(dyn Fn(Work<'_>) + Sync),
+        notify: &(dyn Fn(Work<'_>) + Sync),
     ) {
         let update = &self.reference.update;
         let mut makers: Vec<Maker<'_>> = Vec::new();
         for candidate in candidates {
             makers.push(Box::new(move || {
-                let inpaint = candidate.configuration.rung.inpaint();
+                let inpaint = candidate.configuration.fill.inpaint();
                 Some(Box::new(Engine::new(update, candidate.format, candidate.settings, inpaint)?))
             }));
         }
@@ -176,31 +176,31 @@ impl Run<'_> {
             let cells = update.samples.len();
             makers.push(Box::new(move || {
                 let maps = float::maps(configuration.kept, update.width, update.height)?;
-                Some(Box::new(float::InFloats { maps, rung: configuration.rung.rung(), cells }))
+                Some(Box::new(float::InFloats { maps, fill_mode: configuration.fill.mode(), cells }))
             }));
         }
         let mut fixed: Vec<(String, Fill)> = Vec::new();
         for candidate in candidates {
             let Some(stand_in) = stand_in::of(candidate.configuration.kept) else { continue };
-            let kind = (stand_in.name(), candidate.configuration.rung);
+            let kind = (stand_in.name(), candidate.configuration.fill);
             if !fixed.contains(&kind) {
                 fixed.push(kind);
                 // The edge threshold stands in units of the depth's last bit, of which the stand-in may have another
                 // number.
                 let settings = self.settings(&candidate.configuration, &stand_in.record);
-                let inpaint = candidate.configuration.rung.inpaint();
+                let inpaint = candidate.configuration.fill.inpaint();
                 makers.push(Box::new(move || stand_in.contender(update, settings, inpaint)));
             }
         }
-        tell(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));
-        let times = race(update, self.effort, &makers, || tell(Work::Done));
+        notify(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));
+        let times = race(update, self.effort, &makers, || notify(Work::Done));
         let (own, fixed_times) = times.split_at(candidates.len() + floats.len());
         for (index, (point, &time)) in points.iter_mut().zip(own).enumerate() {
             match candidates.get(index) {
                 Some(candidate) => {
                     point.run_time = time;
-                    let place = fixed.iter().position(|(name, rung)| {
-                        Some(name) == point.stand_in.as_ref() && *rung == candidate.configuration.rung
+                    let place = fixed.iter().position(|(name, fill)| {
+                        Some(name) == point.stand_in.as_ref() && *fill == candidate.configuration.fill
                     });
                     point.compile_time = place.and_then(|place| fixed_times[place]);
                 }
@@ -210,16 +210,16 @@ impl Run<'_> {
     }
 }
 
-/// A point without its number, its widths and its times.
+/// Returns a point without its number, its widths and its times.
 fn point(scheme: Scheme, configuration: &Configuration, frames: Vec<FrameError>) -> Point {
     Point {
         id: 0,
         scheme,
-        lanes: configuration.kept.name(),
+        fields: configuration.kept.name(),
         budget: String::new(),
         bits: None,
         rounding: None,
-        rung: configuration.rung.name(),
+        fill: configuration.fill.name(),
         bytes: 0,
         used_bits: 0,
         saturated: 0,
@@ -231,7 +231,7 @@ fn point(scheme: Scheme, configuration: &Configuration, frames: Vec<FrameError>)
     }
 }
 
-/// What a certificate depends on, beside `tau_prop`.
+/// What a certificate depends on, besides `tau_prop`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Arithmetic([u32; 6], bool, &'static str);
 

@@ -5,7 +5,7 @@ use galpix_core::{Bits, Layout};
 
 use crate::update::{Known, Sample, Update};
 
-/// The largest magnitudes in x, y and depth (pixels a frame, pixels a frame²; depth: parts of the range).
+/// The largest magnitudes in x, y and depth (pixels per frame, pixels per frame²; depth: parts of the range).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ranges {
     /// Of velocities at the update.
@@ -33,8 +33,8 @@ impl Ranges {
         ranges
     }
 
-    /// The component without the integer bits that nothing in the update uses. `bins` is the logarithm of the units of
-    /// a whole range: 0 in the plane, the bits of the depth's bins in depth.
+    /// Returns the component without the integer bits that nothing in the update uses. `bins` is the logarithm of the
+    /// units of a whole range: 0 in the plane, the bits of the depth's bins in depth.
     #[must_use]
     pub fn fit(&self, component: Component, axis: usize, bins: u32, layout: Layout) -> Component {
         let unit = f64::from(1u32 << bins.min(31));
@@ -49,7 +49,8 @@ impl Ranges {
     }
 }
 
-/// Integer bits, with sign, of a field with `frac` fraction bits that holds `magnitude` of either sign; at least 1.
+/// Returns integer bits, with sign, of a field with `frac` fraction bits that holds `magnitude` of either sign; at
+/// least 1.
 fn integer_bits(magnitude: f64, frac: u32) -> u32 {
     let last_bit = 0.5f64.powi(frac as i32);
     (1..31).find(|&bits| magnitude <= f64::from(1u32 << (bits - 1)) - last_bit).unwrap_or(31)
@@ -63,7 +64,7 @@ pub struct Stored {
     pub velocity: f64,
     /// Pixels a frame².
     pub acceleration: f64,
-    /// Whether nothing was clamped on the way to this frame.
+    /// Whether nothing was clamped up to this frame.
     pub fits: bool,
 }
 
@@ -81,22 +82,22 @@ impl Stored {
         }
         let (acceleration, a_fits) =
             stored(sample.acceleration[axis], component.acceleration_bits(), component.acceleration_frac);
-        // The step into frame n uses the velocity of frame n - 1; velocities go one way, so the last one tells.
+        // The step into frame n uses the velocity of frame n - 1; velocities are monotonic, so the last one decides.
         let last = velocity + acceleration * f64::from(frame.saturating_sub(1));
         let top = 0.5f64.powi(component.velocity_frac as i32 + 1) * 2f64.powi(component.velocity_bits() as i32);
         let within = last >= -top && last <= top - 0.5f64.powi(component.velocity_frac as i32);
         Self { velocity, acceleration, fits: fits && a_fits && within }
     }
 
-    /// The way after `frame` frames, in pixels.
+    /// Returns the displacement after `frame` frames, in pixels.
     #[must_use]
-    pub fn way(&self, frame: u32) -> f64 {
+    pub fn displacement(&self, frame: u32) -> f64 {
         let n = f64::from(frame);
         self.velocity * n + self.acceleration / 2.0 * n * n
     }
 }
 
-/// `value` to nearest with `frac` fraction bits, halves upwards, clamped to `bits` bits; and whether it fitted.
+/// Returns `value` to nearest with `frac` fraction bits, halves upwards, clamped to `bits` bits; and whether it fitted.
 fn stored(value: f64, bits: u32, frac: u32) -> (f64, bool) {
     let unit = 2f64.powi(frac as i32);
     let raw = (value * unit + 0.5).floor();
@@ -130,7 +131,7 @@ mod tests {
         // 2.1 is stored as 2.0; 3.75 is the largest that fits: 2 + 0.5 * 3 does, 2 + 0.5 * 4 does not.
         assert_eq!(at(1), Stored { velocity: 2.0, acceleration: 0.5, fits: true });
         assert!(at(4).fits && !at(5).fits);
-        assert_eq!(at(4).way(4), 12.0);
+        assert_eq!(at(4).displacement(4), 12.0);
         assert!(Stored::of(&sample, 0, bits, Layout::VELOCITY565, 100).fits);
     }
 }

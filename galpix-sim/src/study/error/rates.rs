@@ -1,8 +1,8 @@
-//! What galpixels buy: an update every N frames with the display moving between, beside sample-and-hold at the same
-//! rates.
+//! What galpixels buy: an update every N frames with the display moving between, compared with sample-and-hold at the
+//! same rates.
 //!
 //! A scene is rendered anew at every N-th frame; the picture of an update itself is without error, so that every frame
-//! of the display counts once at each rate. A capture has one update: it is held against its true pictures by age
+//! of the display counts once at each rate. A capture has one update: it is compared with its true pictures by age
 //! instead.
 
 use rayon::prelude::*;
@@ -88,13 +88,13 @@ impl Sum {
     }
 }
 
-/// How many frames of the display are compared for a scene that is meant for `frames`.
+/// Returns how many frames of the display are compared for a scene that is meant for `frames`.
 #[must_use]
 pub fn length(frames: u32) -> u32 {
     EVERY.into_iter().find(|&every| every >= frames).unwrap_or(32)
 }
 
-/// The rates of a scene; `engine` makes the frames between the updates.
+/// Returns the rates of a scene; `engine` makes the frames between the updates.
 ///
 /// *Errors:* an update that cannot be laid out.
 pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate>, EngineError> {
@@ -145,7 +145,7 @@ pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate
     Ok(held.iter().map(rate).collect())
 }
 
-/// The largest N at which sample-and-hold has at most this FLIP; at N = 1 it has none.
+/// Returns the largest N at which sample-and-hold has at most this FLIP; at N = 1 it has none.
 fn needed(flip: f64, held: &[(u32, Sum)]) -> u32 {
     held.iter().filter(|(_, sum)| sum.flip() <= flip).map(|&(every, _)| every).max().unwrap_or(1)
 }

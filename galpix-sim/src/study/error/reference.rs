@@ -1,4 +1,4 @@
-//! What the frames of a source are held against: the true pictures, the true paths, and the exact second-order paths.
+//! What the frames of a source are compared with: the true pictures, the true paths, and the exact second-order paths.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use crate::picture::Picture;
 use crate::source::Source;
 use crate::update::{Known, Sample, Truth, Update};
 
-/// Pictures are looked at in so many frames, fewer where they are large: FLIP takes a microsecond a pixel.
+/// The frames whose pictures are compared; fewer where they are large: FLIP takes a microsecond per pixel.
 const MOST_PICTURES: usize = 4;
 /// Pixels whose FLIP is taken for one configuration.
 const PIXELS: usize = 700_000;
-/// Frames in which positions are looked at.
+/// Frames in which positions are compared.
 const MOST_PLACES: usize = 6;
 
 /// A source, its update, and its truth.
@@ -34,7 +34,7 @@ pub struct Reference<'s> {
     tracks: Option<Vec<Vec<[f64; 2]>>>,
 }
 
-/// `count` of some things, evenly spaced, the last among them.
+/// Returns `count` of some things, evenly spaced, the last among them.
 fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
     let count = count.clamp(1, all.len().max(1)).min(all.len());
     (1..=count).map(|k| all[k * all.len() / count - 1]).collect()
@@ -70,40 +70,40 @@ impl<'s> Reference<'s> {
         Self { source, update, hold, frames, truths, looked, tracks }
     }
 
-    /// Where a sample was in the update, in cells of the map.
+    /// Returns where a sample was in the update, in cells of the map.
     #[must_use]
     pub fn from(&self, origin: u32) -> [f64; 2] {
         let (origin, width) = (origin as usize, self.update.width);
         [(origin % width) as f64, (origin / width) as f64]
     }
 
-    /// Where a sample truly is in a frame, where that is known.
+    /// Returns where a sample truly is in a frame, where that is known.
     #[must_use]
     pub fn track(&self, origin: u32, frame: u32) -> Option<[f64; 2]> {
         self.tracks.as_ref()?.get(frame.checked_sub(1)? as usize)?.get(origin as usize).copied()
     }
 
-    /// The true picture of a frame.
+    /// Returns the true picture of a frame.
     #[must_use]
     pub fn truth(&self, frame: u32) -> Option<&Truth> {
         self.truths.iter().find(|truth| truth.frame == frame)
     }
 
-    /// The most that lanes which are left out would have moved a sample by, up to `frame`, in pixels.
+    /// Returns the most that fields which are left out would have moved a sample by, up to `frame`, in pixels.
     #[must_use]
     pub fn left_out_px(&self, layout: Layout, frame: u32) -> f64 {
         let known = self.update.samples.iter().filter(|sample| sample.known == Known::Motion);
         let gone = |sample: &Sample| {
-            let [full, kept] = [way(sample, Layout::FULL, frame), way(sample, layout, frame)];
+            let [full, kept] = [displacement(sample, Layout::FULL, frame), displacement(sample, layout, frame)];
             (full[0] - kept[0]).abs().max((full[1] - kept[1]).abs())
         };
         known.map(gone).fold(0.0, f64::max)
     }
 }
 
-/// The exact way in x and y of a sample with some lanes, in pixels.
+/// Returns the exact displacement in x and y of a sample with some fields, in pixels.
 #[must_use]
-pub fn way(sample: &Sample, layout: Layout, frame: u32) -> [f64; 2] {
+pub fn displacement(sample: &Sample, layout: Layout, frame: u32) -> [f64; 2] {
     let n = f64::from(frame);
     [0, 1].map(|axis| {
         let velocity = if layout.velocity { sample.velocity[axis] } else { 0.0 };
@@ -113,7 +113,7 @@ pub fn way(sample: &Sample, layout: Layout, frame: u32) -> [f64; 2] {
 }
 
 fn tracks(scene: &dyn crate::source::scene::Scene, update: &Update, frame: u32) -> Vec<[f64; 2]> {
-    let (left, top) = (update.wings.left as f64, update.wings.top as f64);
+    let (left, top) = (update.margin.left as f64, update.margin.top as f64);
     (0..update.samples.len())
         .map(|cell| {
             let (x, y) = ((cell % update.width) as f64 - left, (cell / update.width) as f64 - top);

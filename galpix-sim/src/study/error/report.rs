@@ -24,8 +24,9 @@ pub struct Point {
     pub id: usize,
     /// galpix or floats.
     pub scheme: Scheme,
-    /// Lanes kept.
-    pub lanes: &'static str,
+    /// Fields kept.
+    #[serde(rename = "lanes")]
+    pub fields: &'static str,
     /// The budget, by how it departs from the derived one.
     pub budget: String,
     /// The widths in x: position's fraction, velocity's integer and fraction, acceleration's integer and fraction.
@@ -33,7 +34,8 @@ pub struct Point {
     /// Rounding of positions.
     pub rounding: Option<&'static str>,
     /// What is put into holes.
-    pub rung: &'static str,
+    #[serde(rename = "rung")]
+    pub fill: &'static str,
     /// Bytes a stored galpixel takes.
     pub bytes: usize,
     /// Bits of them in use.
@@ -42,9 +44,9 @@ pub struct Point {
     pub saturated: u64,
     /// The time with the budget chosen at run time, as the simulator runs it; none for floats.
     pub run_time: Option<Time>,
-    /// The time in the form of a product: with the budget fixed at compile time; none for lanes without a stand-in.
+    /// The time in the form of a product: with the budget fixed at compile time; none for fields without a stand-in.
     pub compile_time: Option<Time>,
-    /// The compile-time budget that `compile_time` was measured with; none for lanes that have none, and for floats,
+    /// The compile-time budget that `compile_time` was measured with; none for fields that have none, and for floats,
     /// which are themselves.
     pub stand_in: Option<String>,
     /// All frames together.
@@ -54,12 +56,12 @@ pub struct Point {
 }
 
 impl Point {
-    /// What it is, in a few words.
+    /// Returns what it is, in a few words.
     #[must_use]
     pub fn name(&self) -> String {
         match self.rounding {
-            Some(rounding) => format!("{}, {}, {}, {}", self.lanes, self.budget, rounding, self.rung),
-            None => format!("f32, {}, {}", self.lanes, self.rung),
+            Some(rounding) => format!("{}, {}, {}, {}", self.fields, self.budget, rounding, self.fill),
+            None => format!("f32, {}, {}", self.fields, self.fill),
         }
     }
 }
@@ -71,7 +73,7 @@ pub struct Fronts {
     pub position: Vec<usize>,
     /// Compile-time form against FLIP.
     pub picture: Vec<usize>,
-    /// Bytes a galpixel against the worst position error.
+    /// Bytes per galpixel against the worst position error.
     pub bytes: Vec<usize>,
 }
 
@@ -97,7 +99,7 @@ pub struct SourceReport {
     pub width: usize,
     /// Rows of the display.
     pub height: usize,
-    /// Cells of the map, wings included.
+    /// Cells of the map, margin included.
     pub cells: usize,
     /// Frames extrapolated.
     pub frames: u32,

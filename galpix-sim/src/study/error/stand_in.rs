@@ -1,7 +1,7 @@
-//! Formats fixed at compile time, in whose form a product runs: a frame's time depends on the lanes, on the number of
-//! words, on the rung and on the picture, and hardly on single bits. So a configuration takes the time of the stand-in
-//! that has its lanes, where there is one. Each is compiled on its own, so there are few: other lanes are timed in the
-//! form chosen at run time alone.
+//! Formats fixed at compile time, in whose form a product runs: a frame's time depends on the fields, on the number of
+//! words, on the fill mode and on the picture, and hardly on single bits. So a configuration takes the time of the
+//! stand-in that has its fields, where there is one. Each is compiled on its own, so there are few: other fields are
+//! timed in the form chosen at run time alone.
 
 use galpix_core::{Bits, Demand, Layout, Profile, Record, Settings, Static};
 
@@ -19,7 +19,7 @@ type Make = fn(&Update, Settings, Option<Inpaint>) -> Option<Box<dyn Contender>>
 /// A format that is fixed at compile time.
 #[derive(Clone, Copy)]
 pub struct StandIn {
-    /// Its lanes.
+    /// Its fields.
     pub kept: Kept,
     /// Its stored form.
     pub record: Record,
@@ -51,7 +51,7 @@ impl Profile for Full {
 pub static ALL: [StandIn; 3] =
     [StandIn::of::<Still>(Kept::Still), StandIn::of::<Velocity>(Kept::Velocity), StandIn::of::<Full>(Kept::Full)];
 
-/// Returns the stand-in for some lanes, if there is one.
+/// Returns the stand-in for some fields, if there is one.
 #[must_use]
 pub fn of(kept: Kept) -> Option<&'static StandIn> {
     ALL.iter().find(|stand_in| stand_in.kept == kept)
@@ -79,7 +79,7 @@ impl StandIn {
         (self.make)(update, settings, inpaint)
     }
 
-    /// Returns its name: lanes and words.
+    /// Returns its name: fields and words.
     #[must_use]
     pub fn name(&self) -> String {
         format!("{} in {} words", self.kept.name(), self.record.words())
@@ -91,7 +91,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stand_ins_are_found_by_their_lanes() {
+    fn stand_ins_are_found_by_their_fields() {
         let names = Kept::ALL.map(|kept| of(kept).map(StandIn::name));
         let [still, velocity, full] = ["still in 1 words", "velocity in 3 words", "full in 5 words"];
         let expected = [Some(still), Some(velocity), None, None, Some(full), None];

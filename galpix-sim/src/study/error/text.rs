@@ -1,4 +1,4 @@
-//! What the terminal says: the fronts, floats and sample-and-hold beside them, and what galpixels buy.
+//! What the terminal shows: the fronts, floats and sample-and-hold for comparison, and what galpixels buy.
 
 use super::columns::{Row, columns};
 use super::report::{Point, Scheme, SourceReport};
@@ -56,7 +56,7 @@ fn by_time(mut points: Vec<&Point>) -> Vec<&Point> {
     points
 }
 
-/// One sentence for each rate above every frame.
+/// Returns one sentence for each rate above every frame.
 fn rates(report: &SourceReport) -> Vec<String> {
     let rates = report.rates.iter().filter(|rate| rate.every > 1).map(|rate| {
         let needed = match rate.hold_needs_every {

@@ -13,17 +13,17 @@ pub struct Case {
     pub fill: Fill,
 }
 
-/// What is compared with: every cell of it is black that nothing reached.
-pub const NOTHING: Case = Case { name: "none", fill: Fill::Rung(FillMode::None) };
+/// What the fills are compared with: cells that nothing reached are black.
+pub const NOTHING: Case = Case { name: "none", fill: Fill::Mode(FillMode::None) };
 
-/// Push-pull as it was before depth was taken into account.
+/// Push-pull without depth.
 pub const CLASSIC: &str = "push-pull-classic";
 
-/// All of them, from cheap to rich; those that inpaint with this gamma, if one is given, and not within a fovea of this
-/// radius. The classic push-pull has no gamma.
+/// Returns all of them, from cheap to rich; those that inpaint with this gamma, if one is given, and not within a fovea
+/// of this radius. The classic push-pull has no gamma.
 #[must_use]
 pub fn all(gamma: Option<Gamma>, fovea: Option<u32>) -> Vec<Case> {
-    let rungs = FillMode::ALL.map(|rung| Case { name: rung.name(), fill: rung.into() });
+    let modes = FillMode::ALL.map(|mode| Case { name: mode.name(), fill: mode.into() });
     let inpainted = Kind::ALL.map(|kind| {
         let usual = Inpaint::new(kind);
         let fill = Fill::Inpaint(Inpaint { gamma: gamma.unwrap_or(usual.gamma), fovea, ..usual });
@@ -31,7 +31,7 @@ pub fn all(gamma: Option<Gamma>, fovea: Option<u32>) -> Vec<Case> {
     });
     let classic = Inpaint { gamma: Gamma::Zero, depth_aware: false, fovea, ..Inpaint::new(Kind::PushPull) };
     let classic = Case { name: CLASSIC, fill: Fill::Inpaint(classic) };
-    rungs.into_iter().chain([classic]).chain(inpainted).collect()
+    modes.into_iter().chain([classic]).chain(inpainted).collect()
 }
 
 #[cfg(test)]

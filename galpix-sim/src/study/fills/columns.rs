@@ -23,7 +23,7 @@ impl<'r> Row<'r> {
         self.frame.map_or_else(|| self.source.cells.iter().map(of).sum(), of).into()
     }
 
-    /// A figure of all frames together.
+    /// Returns a figure of all frames together.
     fn of_all(&self, figure: Option<f64>) -> Value {
         figure.filter(|_| self.frame.is_none()).into()
     }

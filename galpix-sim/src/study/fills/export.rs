@@ -70,7 +70,7 @@ impl Export {
         Self { root: root.to_owned() }
     }
 
-    /// Writes what there is of a frame beside the fills.
+    /// Writes what there is of a frame besides the fills.
     ///
     /// *Errors:* a file or folder that cannot be written.
     pub fn truth(&self, source: &Source, holes: &Holes) -> Result<(), ExportError> {
@@ -101,9 +101,9 @@ impl Export {
     }
 }
 
-/// `index.json`: what was written.
+/// Returns `index.json`: what was written.
 ///
-/// *Errors:* never for a document; what the serialiser says.
+/// *Errors:* those of the serialiser; none for a document.
 pub fn index(document: &Document) -> serde_json::Result<String> {
     let source = |report: &'_ super::report::SourceReport| -> Vec<IndexFrame> {
         let frame = |&cells: &FrameCells| {
@@ -135,7 +135,7 @@ pub fn index(document: &Document) -> serde_json::Result<String> {
     Ok(serde_json::to_string_pretty(&index)? + "\n")
 }
 
-/// The folder of a frame, from the root. A capture's name comes from outside.
+/// Returns the folder of a frame, from the root. A capture's name comes from outside.
 fn frame_folder(source: &str, frame: u32) -> String {
     format!("{}/{frame:04}", file_name(source))
 }

@@ -8,7 +8,7 @@ use crate::metric::stats::weighted_mean;
 use crate::picture::Picture;
 use crate::study::holes::{Holes, count};
 
-/// Cells around the disoccluded ones that are looked at. No filter of FLIP or SSIM reaches farther, and farther out a
+/// Cells around the disoccluded ones that are used. No filter of FLIP or SSIM reaches farther, and farther out a
 /// picture and the truth are the same.
 const MARGIN: usize = 24;
 
@@ -19,7 +19,7 @@ pub struct Figures {
     pub psnr_db: Option<f64>,
     /// Structural similarity over the disoccluded cells, all others set to the truth.
     pub ssim: Option<f64>,
-    /// FLIP in the same way.
+    /// FLIP likewise.
     pub flip: Option<f64>,
     /// The variance of luma in the 7x7 cells around each disoccluded one, all others set to the truth; in code values
     /// squared.
@@ -40,20 +40,20 @@ pub struct TruthFigures {
     pub change: Option<f64>,
 }
 
-/// Cells that are disoccluded in a frame and in the one before it.
+/// Returns the cells that are disoccluded in a frame and in the one before it.
 pub fn in_both(before: Option<&Holes>, now: &Holes) -> Option<Vec<bool>> {
     let before = before.filter(|before| before.frame + 1 == now.frame)?;
     let both: Vec<bool> = before.disoccluded.iter().zip(&now.disoccluded).map(|(&a, &b)| a && b).collect();
     both.contains(&true).then_some(both)
 }
 
-/// The truth's own figures in a frame.
+/// Returns the truth's own figures in a frame.
 pub fn truth(before: Option<&Holes>, now: &Holes) -> TruthFigures {
     let change = in_both(before, now).and_then(|both| metric::change(&before?.truth, &now.truth, Some(&both)));
     TruthFigures { variance: around(now, &now.truth, metric::variance), change }
 }
 
-/// The figures of a picture; `last` is that of the frame before.
+/// Returns the figures of a picture; `last` is that of the frame before.
 pub fn of(holes: &Holes, shown: &Picture, before: Option<(&Holes, &Picture)>, truth: &TruthFigures) -> Figures {
     let change = before.and_then(|(before, last)| metric::change(last, shown, Some(&in_both(Some(before), holes)?)));
     Figures {
@@ -68,7 +68,7 @@ pub fn of(holes: &Holes, shown: &Picture, before: Option<(&Holes, &Picture)>, tr
 
 type Metric = fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>;
 
-/// A figure over the disoccluded cells, for which only what is near them is looked at.
+/// Returns a figure over the disoccluded cells, for which only what is near them is looked at.
 fn around(holes: &Holes, shown: &Picture, metric: Metric) -> Option<f64> {
     let (width, height) = (shown.width, shown.height);
     let cells = (0..holes.disoccluded.len()).filter(|&cell| holes.disoccluded[cell]);
@@ -98,7 +98,7 @@ impl Weight {
     }
 }
 
-/// The figures of all frames in one.
+/// Returns the figures of all frames in one.
 pub fn summary(frames: &[Figures], weights: &[Weight]) -> Figures {
     let by_cells = |figure: fn(&Figures) -> Option<f64>| {
         mean(frames.iter().zip(weights).map(|(frame, weight)| (weight.cells as f64, figure(frame))))
@@ -114,7 +114,7 @@ pub fn summary(frames: &[Figures], weights: &[Weight]) -> Figures {
     }
 }
 
-/// The truth's figures of all frames in one.
+/// Returns the truth's figures of all frames in one.
 pub fn truth_summary(frames: &[TruthFigures], weights: &[Weight]) -> TruthFigures {
     let pairs = || frames.iter().zip(weights);
     TruthFigures {
@@ -143,7 +143,7 @@ mod tests {
         assert_eq!((summary.flicker, summary.ssim), (Some(2.0), None));
     }
 
-    /// A picture of noise with a hole in it, and what is shown there.
+    /// Returns a picture of noise with a hole in it, and what is shown there.
     fn hole(frame: u32, level: u8) -> (Holes, Picture) {
         let noise = |cell: usize| [(cell.wrapping_mul(2_654_435_761) >> 24 & 0xff) as u8; 3];
         let truth = Picture { width: 96, height: 80, pixels: (0..96 * 80).map(noise).collect() };

@@ -1,4 +1,4 @@
-//! Every fill side by side: how well, and at what cost, each makes up what the warp of a source leaves open.
+//! A comparison of fills: how well, and at what cost, each fills what the warp of a source leaves open.
 //!
 //! ```text
 //! holes (the warp alone: which cells are judged) ─┬─▶ figures (of each fill's pictures) ─┐
@@ -6,7 +6,7 @@
 //!                                                 └─▶ export (pictures for other programs) and crops
 //! ```
 //!
-//! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
+//! Errors are measured on all processors, times afterwards on one, each relative to a memory copy.
 
 pub mod case;
 mod columns;
@@ -42,7 +42,7 @@ pub struct Plan {
     pub fovea: Option<u32>,
 }
 
-/// What is said beside the sources.
+/// What is reported besides the sources.
 #[derive(Clone, Debug, Serialize)]
 pub struct Extra {
     /// The radius of the disc inside of which nothing is judged.
@@ -76,7 +76,8 @@ impl Study for Plan {
 
     fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
         let export = stage.out.map(Export::new);
-        let report = compare(job, self, export.as_ref(), || (stage.tell)(Work::Done)).map_err(StudyError::unusable)?;
+        let report =
+            compare(job, self, export.as_ref(), || (stage.notify)(Work::Done)).map_err(StudyError::unusable)?;
         Ok(report.map_or(Found::Nothing(Nothing::Disoccluded), Found::Report))
     }
 
@@ -107,7 +108,7 @@ pub enum FillsError {
     Export(#[from] ExportError),
 }
 
-/// Compares the fills on a source; `None` if nothing is disoccluded in it. `done` is told of each fill that is through.
+/// Compares the fills on a source; `None` if nothing is disoccluded in it. `done` is called after each fill.
 ///
 /// *Errors:* a budget that cannot exist or does not fit, pictures that cannot be written.
 pub fn study(
@@ -172,7 +173,7 @@ fn compare(
     }))
 }
 
-/// Each frame with the one before it in the list.
+/// Returns each frame with the one before it in the list.
 fn each(holes: &[Holes]) -> impl Iterator<Item = (Option<&Holes>, &Holes)> {
     holes.iter().enumerate().map(|(index, now)| (index.checked_sub(1).map(|before| &holes[before]), now))
 }
@@ -191,7 +192,7 @@ struct Shown {
     largest: Option<Picture>,
 }
 
-/// What fills are judged by.
+/// The measures of fills.
 struct Judged<'s> {
     job: &'s Job<'s>,
     holes: &'s [Holes],

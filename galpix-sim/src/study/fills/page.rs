@@ -37,19 +37,19 @@ border. <b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over them, a
 weighted by their cells.</li>\
 <li><b>Variance</b> is that of luma in the 7\u{00D7}7 cells around each. Less than the truth\u{2019}s is blurred. <b>Flicker</b> is the mean \
 change of luma from the frame before, where both frames are disoccluded, less that of the truth.</li>\
-<li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median, beside a \
+<li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median, relative to a \
 memory copy of the map in the same run (<b>\u{00D7} copy</b>). <b>SSIMULACRA2</b> is of the whole picture, 100 for equals.</li>";
 
 fn foot(document: &Document) -> Markup {
     let mut notes = vec![
-        "fills.csv and fills.json beside this page hold every figure, frame by frame; index.json lists the pictures."
+        "fills.csv and fills.json in this folder hold every figure, frame by frame; index.json lists the pictures."
             .to_owned(),
     ];
     let nothing = &document.extra.nothing_disoccluded;
     if !nothing.is_empty() {
         notes.push(format!("Nothing is disoccluded in {}.", nothing.join(", ")));
     }
-    page::notes("Beside this", &notes)
+    page::notes("Notes", &notes)
 }
 
 fn section(index: usize, source: &SourceReport) -> Markup {

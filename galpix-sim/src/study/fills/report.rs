@@ -73,7 +73,7 @@ pub struct SourceReport {
 }
 
 impl SourceReport {
-    /// Disoccluded cells of all frames.
+    /// Returns the disoccluded cells of all frames.
     #[must_use]
     pub fn disoccluded(&self) -> u64 {
         self.cells.iter().map(|frame| frame.disoccluded).sum()

@@ -1,35 +1,35 @@
-//! What the terminal says: a line a way, and a line a way of pinning.
+//! What the terminal shows: a line per strategy, and a line per strategy of pinning.
 
-use super::pinned::PinnedWay;
-use super::report::{GraftReport, WayReport};
+use super::pinned::PinnedStrategy;
+use super::report::{GraftReport, StrategyReport};
 use crate::output::column::{Column, Table};
 
-fn ways() -> [Column<WayReport>; 12] {
-    let column = Column::<WayReport>::new;
+fn strategies() -> [Column<StrategyReport>; 12] {
+    let column = Column::<StrategyReport>::new;
     [
-        column(|way| way.way.into()).terminal("way", 0).words(),
-        column(|way| way.objects_every.into()).terminal("objects", 0),
-        column(|way| way.background_every.into()).terminal("backgr.", 0),
-        column(|way| way.late.into()).terminal("late", 0),
-        column(|way| way.cells_per_frame.into()).terminal("cells/f", 0),
-        column(|way| way.psnr_db.into()).terminal("dB", 2),
-        column(|way| way.worst_psnr_db.into()).terminal("worst", 2),
-        column(|way| way.flip.into()).terminal("FLIP", 4),
-        column(|way| way.objects_px.into()).terminal("obj px", 4),
-        column(|way| way.background_px.into()).terminal("back px", 4),
-        column(|way| way.missing.into()).terminal("missing", 0),
-        column(|way| format!("{}/{}", way.refused.total, way.renderings).into()).terminal("refused", 0),
+        column(|strategy| strategy.strategy.into()).terminal("way", 0).words(),
+        column(|strategy| strategy.objects_every.into()).terminal("objects", 0),
+        column(|strategy| strategy.background_every.into()).terminal("backgr.", 0),
+        column(|strategy| strategy.late.into()).terminal("late", 0),
+        column(|strategy| strategy.cells_per_frame.into()).terminal("cells/f", 0),
+        column(|strategy| strategy.psnr_db.into()).terminal("dB", 2),
+        column(|strategy| strategy.worst_psnr_db.into()).terminal("worst", 2),
+        column(|strategy| strategy.flip.into()).terminal("FLIP", 4),
+        column(|strategy| strategy.objects_px.into()).terminal("obj px", 4),
+        column(|strategy| strategy.background_px.into()).terminal("back px", 4),
+        column(|strategy| strategy.missing.into()).terminal("missing", 0),
+        column(|strategy| format!("{}/{}", strategy.refused.total, strategy.renderings).into()).terminal("refused", 0),
     ]
 }
 
-fn pinned() -> [Column<PinnedWay>; 5] {
-    let column = Column::<PinnedWay>::new;
+fn pinned() -> [Column<PinnedStrategy>; 5] {
+    let column = Column::<PinnedStrategy>::new;
     [
-        column(|way| way.way.into()).terminal("instruments", 0).words(),
-        column(|way| way.pinned_wrong.into()).terminal("pinned wrong", 1),
-        column(|way| way.others_smeared.into()).terminal("others smear", 1),
-        column(|way| way.psnr_db.into()).terminal("dB", 2),
-        column(|way| way.worst_psnr_db.into()).terminal("worst", 2),
+        column(|strategy| strategy.strategy.into()).terminal("instruments", 0).words(),
+        column(|strategy| strategy.pinned_wrong.into()).terminal("pinned wrong", 1),
+        column(|strategy| strategy.others_smeared.into()).terminal("others smear", 1),
+        column(|strategy| strategy.psnr_db.into()).terminal("dB", 2),
+        column(|strategy| strategy.worst_psnr_db.into()).terminal("worst", 2),
     ]
 }
 
@@ -43,10 +43,10 @@ pub fn text(report: &GraftReport) -> String {
         report.cells,
         report.frames
     )];
-    lines.extend(Table::new(&ways(), &report.ways).lines(&report.ways));
+    lines.extend(Table::new(&strategies(), &report.strategies).lines(&report.strategies));
     if let Some(found) = &report.pinned {
         lines.push(format!("\n{} of {} pixels are pinned, {} frames", found.pinned, found.pixels, found.frames));
-        lines.extend(Table::new(&pinned(), &found.ways).lines(&found.ways));
+        lines.extend(Table::new(&pinned(), &found.strategies).lines(&found.strategies));
     }
     lines.join("\n")
 }

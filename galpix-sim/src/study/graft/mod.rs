@@ -2,8 +2,8 @@
 //! the same number of cells a second; and what pinning does for instruments over the picture.
 //!
 //! Each surface of a scene is an object with a tag and a layer of its own, the first one the background in the base. A
-//! *rendering* is the rectangle of the cells in which a surface alone is seen, be it covered or not; every cell of it
-//! is counted as sent, be there something or not.
+//! *rendering* is the rectangle of the cells that a surface covers, also where another one hides it; all its cells are
+//! counted as sent, also empty ones.
 
 mod columns;
 mod pinned;
@@ -17,11 +17,11 @@ use galpix_core::objects::Limits;
 use galpix_core::{Bits, Demand};
 
 pub use pinned::PinnedReport;
-use report::{GraftReport, WayReport};
-use run::{Deliver, Way};
+use report::{GraftReport, StrategyReport};
+use run::{Deliver, Strategy};
 use world::World;
 
-use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
+use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
 use crate::engine::EngineError;
 use crate::picture::Picture;
 use crate::source::scene::Scene;
@@ -103,7 +103,7 @@ impl Study for Plan {
     type Extra = NoExtra;
 
     const LEGEND: Option<&'static str> = Some(columns::LEGEND);
-    const PATH: Told = Told::Nowhere;
+    const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
         scene.name()
@@ -118,7 +118,7 @@ impl Study for Plan {
     }
 
     fn study(&self, scene: &&'static dyn Scene, stage: &Stage<'_>) -> Result<Found<Seen>, StudyError> {
-        let (report, pictures) = study(*scene, self, || (stage.tell)(Work::Done)).map_err(|error| match error {
+        let (report, pictures) = study(*scene, self, || (stage.notify)(Work::Done)).map_err(|error| match error {
             GraftsError::Engine(_) => StudyError::failed(error),
             _ => StudyError::unusable(error),
         })?;
@@ -149,13 +149,13 @@ impl Study for Plan {
     }
 }
 
-/// The last picture of each way, for eyes.
+/// The last picture of each strategy.
 pub struct Pictures {
     /// Name and picture, the truth last.
     pub pictures: Vec<(String, Picture)>,
 }
 
-/// Compares the ways for a scene; `done` is called after each of them.
+/// Compares the strategies for a scene; `done` is called after each of them.
 ///
 /// *Errors:* a scene without objects or with too many, rates that leave nothing for the background.
 pub fn study(
@@ -171,16 +171,16 @@ pub fn study(
     if objects > MOST_OBJECTS {
         return Err(GraftsError::TooManyObjects(scene.name(), objects));
     }
-    let ways = ways(&world, plan)?;
-    let longest = ways.iter().map(|way| way.deliver.longest()).max().unwrap_or(1);
+    let strategies = strategies(&world, plan)?;
+    let longest = strategies.iter().map(|strategy| strategy.deliver.longest()).max().unwrap_or(1);
     let side = scene.width().max(scene.height()).next_power_of_two();
     let demand = Demand { extent: side as u32, recog: 8, prop: longest.next_power_of_two().max(2) };
     let bits = Bits::derive(demand).map_err(EngineError::from)?;
     let mut pictures = Vec::new();
-    let mut reports: Vec<WayReport> = Vec::new();
-    for way in &ways {
-        let (report, picture) = run::run(&world, way, plan.frames, bits)?;
-        pictures.push((way.name.to_owned(), picture));
+    let mut reports: Vec<StrategyReport> = Vec::new();
+    for strategy in &strategies {
+        let (report, picture) = run::run(&world, strategy, plan.frames, bits)?;
+        pictures.push((strategy.name.to_owned(), picture));
         reports.push(report);
         done();
     }
@@ -194,17 +194,17 @@ pub fn study(
         frames: plan.frames,
         objects: world.cells().iter().zip(scene.surfaces()).map(|(&cells, _)| cells).collect(),
         cells: world.all_cells(),
-        ways: reports,
+        strategies: reports,
         pinned,
     };
     Ok((report, Pictures { pictures }))
 }
 
-/// How many ways [`study`] compares.
+/// How many strategies [`study`] compares.
 pub const WAYS: u64 = 6;
 
-/// The ways, from the paper's "global update" on, all with at most its rate.
-fn ways(world: &World, plan: &Plan) -> Result<Vec<Way>, GraftsError> {
+/// Returns the strategies, from the paper's "global update" on, all with at most its rate.
+fn strategies(world: &World, plan: &Plan) -> Result<Vec<Strategy>, GraftsError> {
     let Plan { global_every, objects_every, .. } = *plan;
     let view = world.all_cells();
     let (background, objects) = (view, world.cells().iter().skip(1).sum::<u32>());
@@ -232,9 +232,9 @@ fn ways(world: &World, plan: &Plan) -> Result<Vec<Way>, GraftsError> {
     // One rendering may wait, and it may not be the background.
     let small = Limits { cells_each: background / 2, cells: background / 2, age: 2 * late };
     Ok(vec![
-        Way { name: "whole-view", deliver: Deliver::View { every: global_every } },
-        Way { name: "whole-layers", deliver: Deliver::Layers { every: layered_every } },
-        Way {
+        Strategy { name: "whole-view", deliver: Deliver::View { every: global_every } },
+        Strategy { name: "whole-layers", deliver: Deliver::Layers { every: layered_every } },
+        Strategy {
             name: "all-objects",
             deliver: Deliver::Objects {
                 objects_every: layered_every,
@@ -244,8 +244,8 @@ fn ways(world: &World, plan: &Plan) -> Result<Vec<Way>, GraftsError> {
                 updates: 8,
             },
         },
-        Way { name: "grafts", deliver: grafts },
-        Way { name: "grafts-late", deliver: graft(late, roomy, 8) },
-        Way { name: "grafts-small-queue", deliver: graft(0, small, 1) },
+        Strategy { name: "grafts", deliver: grafts },
+        Strategy { name: "grafts-late", deliver: graft(late, roomy, 8) },
+        Strategy { name: "grafts-small-queue", deliver: graft(0, small, 1) },
     ])
 }

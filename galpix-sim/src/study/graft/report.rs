@@ -15,17 +15,19 @@ pub struct GraftReport {
     pub objects: Vec<u32>,
     /// Cells of the map.
     pub cells: u32,
-    /// The ways.
-    pub ways: Vec<WayReport>,
+    /// The strategies.
+    #[serde(rename = "ways")]
+    pub strategies: Vec<StrategyReport>,
     /// What pinning does, where the scene has an overlay.
     pub pinned: Option<PinnedReport>,
 }
 
-/// One way of delivering updates.
+/// One strategy of delivering updates.
 #[derive(Debug, Default, Serialize)]
-pub struct WayReport {
+pub struct StrategyReport {
     /// Its name.
-    pub way: &'static str,
+    #[serde(rename = "way")]
+    pub strategy: &'static str,
     /// Frames from one rendering of an object to the next.
     pub objects_every: u32,
     /// Frames from one rendering of the background to the next.

@@ -1,4 +1,4 @@
-//! One way of delivering updates, run over a scene.
+//! One strategy of delivering updates, run over a scene.
 
 use galpix_core::layers::{Layer, Layers, composite_words};
 use galpix_core::objects::{Limits, Object, ObjectsTally, Places, Queue};
@@ -7,7 +7,7 @@ use galpix_core::{
     scan_out, stages,
 };
 
-use super::report::{GraftedReport, RefusedReport, WayReport};
+use super::report::{GraftedReport, RefusedReport, StrategyReport};
 use super::world::{Rendering, World};
 use crate::engine::{EngineError, galpixel, margin};
 use crate::metric;
@@ -27,15 +27,15 @@ pub(super) enum Deliver {
     Objects { objects_every: u32, background_every: u32, late: u32, limits: Limits, updates: usize },
 }
 
-/// A way and its name.
+/// A strategy and its name.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Way {
+pub(super) struct Strategy {
     pub name: &'static str,
     pub deliver: Deliver,
 }
 
 impl Deliver {
-    /// The longest time without news of something.
+    /// Returns the longest time without news of something.
     pub fn longest(self) -> u32 {
         match self {
             Self::View { every } | Self::Layers { every } => every,
@@ -52,12 +52,12 @@ enum Carry {
     Points,
 }
 
-/// A run of a way, and sums over its frames.
+/// A run of a strategy, and sums over its frames.
 struct Run<'w> {
     world: &'w World,
     deliver: Deliver,
     carry: Carry,
-    report: WayReport,
+    report: StrategyReport,
     cells: u64,
     galpixels: u64,
     /// Sum of distances and their number: objects, background.
@@ -67,18 +67,23 @@ struct Run<'w> {
     points: Vec<(usize, Point)>,
 }
 
-/// Runs a way twice, once for the pictures and once for the places.
-pub(super) fn run(world: &World, way: &Way, frames: u32, bits: Bits) -> Result<(WayReport, Picture), EngineError> {
+/// Runs a strategy twice, once for the pictures and once for the places.
+pub(super) fn run(
+    world: &World,
+    strategy: &Strategy,
+    frames: u32,
+    bits: Bits,
+) -> Result<(StrategyReport, Picture), EngineError> {
     let format = Dynamic::new(bits, Layout::SHADED)?;
     let ran = |carry: Carry| {
-        let mut run = Run::new(world, way.deliver, carry);
+        let mut run = Run::new(world, strategy.deliver, carry);
         run.layered(frames, format).map(|()| run)
     };
     let (pictures, places) = (ran(Carry::Colours)?, ran(Carry::Points)?);
     let mean = |(sum, count): (f64, u64)| if count == 0 { 0.0 } else { sum / count as f64 };
     let count = f64::from(frames.max(1));
-    let report = WayReport {
-        way: way.name,
+    let report = StrategyReport {
+        strategy: strategy.name,
         cells_per_frame: pictures.cells as f64 / count,
         galpixels_per_frame: pictures.galpixels as f64 / count,
         psnr_db: metric::pooled_db(&pictures.decibels),
@@ -97,7 +102,7 @@ struct LayerMemory {
     back: Vec<u32>,
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
 }
 
 impl LayerMemory {
@@ -107,15 +112,15 @@ impl LayerMemory {
             back: vec![0; words],
             winners: vec![0; grid.cells() as usize],
             edges: vec![0; stages::words(grid)],
-            seats: vec![0; composite_words(grid)],
+            composited: vec![0; composite_words(grid)],
         }
     }
 
-    /// Two empty maps over this memory, and what a layer needs beside them.
+    /// Returns two empty maps over this memory, and what else a layer needs.
     fn maps<'p>(&'p mut self, grid: Grid<'p>, format: Dynamic) -> Result<Maps<'p>, SetupError> {
-        let Self { front, back, winners, edges, seats } = self;
+        let Self { front, back, winners, edges, composited } = self;
         let scratch = Scratch { winners, edges };
-        Ok((Galpixmap::new(grid, format, front)?, Galpixmap::new(grid, format, back)?, scratch, seats))
+        Ok((Galpixmap::new(grid, format, front)?, Galpixmap::new(grid, format, back)?, scratch, composited))
     }
 }
 
@@ -125,7 +130,7 @@ impl<'w> Run<'w> {
             world,
             deliver,
             carry,
-            report: WayReport::default(),
+            report: StrategyReport::default(),
             cells: 0,
             galpixels: 0,
             apart: [(0.0, 0); 2],
@@ -138,7 +143,7 @@ impl<'w> Run<'w> {
     /// Lays out the maps and the queue, and makes the frames.
     fn layered(&mut self, frames: u32, format: Dynamic) -> Result<(), EngineError> {
         let scene = self.world.scene;
-        let margin = margin(scene.wings());
+        let margin = margin(scene.margin());
         let mut starts = vec![0; Grid::rows(scene.height() as u32, margin)];
         let grid = Grid::new(scene.width() as u32, scene.height() as u32, margin, &mut starts)?;
         let words = Galpixmap::words(&grid, format);
@@ -152,8 +157,8 @@ impl<'w> Run<'w> {
         let base = Controller::new(front, back, scratch)?;
         let mut hidden = Vec::with_capacity(memory.len());
         for memory in &mut memory {
-            let (front, back, scratch, seats) = memory.maps(grid, format)?;
-            hidden.push(Layer::new(front, back, scratch, seats)?);
+            let (front, back, scratch, composited) = memory.maps(grid, format)?;
+            hidden.push(Layer::new(front, back, scratch, composited)?);
         }
         let mut maps = Layers::new(base, &mut hidden)?;
         let depth_bits = u32::from(maps.front().record().depth().bits);
@@ -233,7 +238,7 @@ impl<'w> Run<'w> {
         }
     }
 
-    /// A galpixel for a cell of a rendering.
+    /// Returns a galpixel for a cell of a rendering.
     fn galpixel(&mut self, cell: &Option<(crate::update::Sample, Point)>) -> Galpixel {
         let Some((sample, point)) = cell else { return Galpixel { class: Class::Empty, ..Galpixel::default() } };
         let mut galpixel = galpixel(sample);

@@ -6,7 +6,7 @@ use crate::update::Sample;
 /// A scene and the sizes of its objects' renderings at its beginning.
 pub(super) struct World {
     pub scene: &'static dyn Scene,
-    /// Columns and rows of the map, wings included.
+    /// Columns and rows of the map, margin included.
     pub size: [u32; 2],
     cells: Vec<u32>,
 }
@@ -21,31 +21,31 @@ pub(super) struct Rendering {
 
 impl World {
     pub fn of(scene: &'static dyn Scene) -> Self {
-        let wings = scene.wings();
-        let size = [wings.left + scene.width() + wings.right, wings.top + scene.height() + wings.bottom];
+        let margin = scene.margin();
+        let size = [margin.left + scene.width() + margin.right, margin.top + scene.height() + margin.bottom];
         let mut world = Self { scene, size: size.map(|side| side as u32), cells: Vec::new() };
         world.cells = (0..scene.surfaces().len()).map(|object| world.rendering(object, 0).cells.len() as u32).collect();
         world
     }
 
-    /// Cells of each object's rendering.
+    /// Returns the cells of each object's rendering.
     pub fn cells(&self) -> &[u32] {
         &self.cells
     }
 
-    /// Cells of the whole map.
+    /// Returns the cells of the whole map.
     pub const fn all_cells(&self) -> u32 {
         self.size[0] * self.size[1]
     }
 
-    /// What is seen of an object alone at column `x`, row `y` of the map.
+    /// Returns what is seen of an object alone at column `x`, row `y` of the map.
     fn seen(&self, object: usize, x: u32, y: u32, t: f64) -> Option<(Sample, Point)> {
-        let (wings, surface) = (self.scene.wings(), self.scene.surfaces()[object]);
-        let hit = surface.hit(f64::from(x) - wings.left as f64, f64::from(y) - wings.top as f64, t)?;
+        let (margin, surface) = (self.scene.margin(), self.scene.surfaces()[object]);
+        let hit = surface.hit(f64::from(x) - margin.left as f64, f64::from(y) - margin.top as f64, t)?;
         Some((scene::seen(surface, object, &hit, t), hit.point))
     }
 
-    /// An object alone at frame `frame`: the smallest rectangle that holds it.
+    /// Returns an object alone at frame `frame`: the smallest rectangle that holds it.
     pub fn rendering(&self, object: usize, frame: u32) -> Rendering {
         let t = f64::from(frame);
         let [width, height] = self.size;
@@ -63,7 +63,7 @@ impl World {
         Rendering { place: [left, top], size: [columns, rows], cells }
     }
 
-    /// The whole view at frame `frame`, as a renderer delivers it to one map: what is foremost in each cell.
+    /// Returns the whole view at frame `frame`, as a renderer delivers it to one map: what is foremost in each cell.
     pub fn view(&self, frame: u32) -> Rendering {
         let t = f64::from(frame);
         let [width, height] = self.size;

@@ -1,62 +1,63 @@
-//! The columns of the figures: a line for each source, way and frame, and one for all frames, whose frame is empty.
+//! The columns of the figures: a line for each source, strategy and frame, and one for all frames, whose frame is
+//! empty.
 
-use super::report::{SourceReport, WayFrame, WayReport};
+use super::report::{SourceReport, StrategyFrame, StrategyReport};
 use crate::output::column::{Column, Table, Value};
 use crate::source::hidden::HiddenReport;
 use crate::study::timing::Time;
 
-/// A way in a frame, or in all of them.
+/// A strategy in a frame, or in all of them.
 pub struct Row<'r> {
     source: &'r SourceReport,
-    way: &'r WayReport,
-    frame: Option<&'r WayFrame>,
+    strategy: &'r StrategyReport,
+    frame: Option<&'r StrategyFrame>,
 }
 
 impl Row<'_> {
     fn hidden(&self, of: fn(&HiddenReport) -> u64) -> Value {
-        self.way.hidden.as_ref().map(of).into()
+        self.strategy.hidden.as_ref().map(of).into()
     }
 
-    fn cells(&self, of: fn(&WayFrame) -> u64, all: u64) -> Value {
+    fn cells(&self, of: fn(&StrategyFrame) -> u64, all: u64) -> Value {
         self.frame.map_or(all, of).into()
     }
 
-    fn figure(&self, of: fn(&WayFrame) -> Option<f64>, all: Option<f64>) -> Value {
+    fn figure(&self, of: fn(&StrategyFrame) -> Option<f64>, all: Option<f64>) -> Value {
         self.frame.map_or(all, of).into()
     }
 
-    /// A figure of all frames together.
+    /// Returns a figure of all frames together.
     fn of_all(&self, figure: Option<f64>) -> Value {
         figure.filter(|_| self.frame.is_none()).into()
     }
 
     fn time(&self, of: fn(Time) -> f64) -> Value {
-        self.of_all(self.way.time.map(of))
+        self.of_all(self.strategy.time.map(of))
     }
 
     fn mean(&self, cells: u64) -> Value {
-        (cells as f64 / self.way.frames.len().max(1) as f64).into()
+        (cells as f64 / self.strategy.frames.len().max(1) as f64).into()
     }
 }
 
 /// Returns the lines of the CSV of a source.
 pub fn rows(source: &SourceReport) -> impl Iterator<Item = Row<'_>> {
-    source.ways.iter().flat_map(move |way| {
-        let frames = way.frames.iter().map(Some).chain([None]);
-        frames.map(move |frame| Row { source, way, frame })
+    source.strategies.iter().flat_map(move |strategy| {
+        let frames = strategy.frames.iter().map(Some).chain([None]);
+        frames.map(move |frame| Row { source, strategy, frame })
     })
 }
 
-/// Returns a row for each way, of all frames together.
+/// Returns a row for each strategy, of all frames together.
 pub fn summaries(source: &SourceReport) -> Vec<Row<'_>> {
-    source.ways.iter().map(|way| Row { source, way, frame: None }).collect()
+    source.strategies.iter().map(|strategy| Row { source, strategy, frame: None }).collect()
 }
 
 /// Returns the columns. Missing cells are summed up in the CSV, and means elsewhere.
 pub fn columns<'r>() -> [Column<Row<'r>>; 18] {
     [
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
-        Column::new(|row: &Row| row.way.name.as_str().into()).csv("way").both("way", 0).words(),
+        Column::new(|row: &Row| row.strategy.name.as_str().into()).csv("way").both("way", 0).words(),
         Column::new(|row: &Row| row.hidden(|hidden| hidden.layers as u64)).csv("layers").csv_else("0"),
         Column::new(|row: &Row| row.hidden(|hidden| hidden.offered.into()))
             .csv("offered")
@@ -65,19 +66,21 @@ pub fn columns<'r>() -> [Column<Row<'r>>; 18] {
         Column::new(|row: &Row| row.hidden(|hidden| hidden.kept.into())).csv("kept").csv_else("0").both("kept", 0),
         Column::new(|row: &Row| row.hidden(|hidden| hidden.used.into())).csv("used").csv_else("0").both("used", 0),
         Column::new(|row: &Row| row.frame.map(|frame| frame.frame).into()).csv("frame"),
-        Column::new(|row: &Row| row.cells(|frame| frame.missing, row.way.missing)).csv("missing"),
-        Column::new(|row: &Row| row.cells(|frame| frame.disoccluded, row.way.disoccluded)).csv("disoccluded"),
-        Column::new(|row: &Row| row.mean(row.way.missing)).both("missing", 1),
-        Column::new(|row: &Row| row.mean(row.way.disoccluded)).both("disoccluded", 1),
-        Column::new(|row: &Row| row.figure(|frame| frame.psnr_db, row.way.psnr_db)).csv("psnr_db").both("PSNR dB", 2),
-        Column::new(|row: &Row| row.figure(|frame| frame.flip, row.way.flip)).csv("flip").both("FLIP", 4),
-        Column::new(|row: &Row| row.figure(|frame| frame.disoccluded_db, row.way.disoccluded_db))
+        Column::new(|row: &Row| row.cells(|frame| frame.missing, row.strategy.missing)).csv("missing"),
+        Column::new(|row: &Row| row.cells(|frame| frame.disoccluded, row.strategy.disoccluded)).csv("disoccluded"),
+        Column::new(|row: &Row| row.mean(row.strategy.missing)).both("missing", 1),
+        Column::new(|row: &Row| row.mean(row.strategy.disoccluded)).both("disoccluded", 1),
+        Column::new(|row: &Row| row.figure(|frame| frame.psnr_db, row.strategy.psnr_db))
+            .csv("psnr_db")
+            .both("PSNR dB", 2),
+        Column::new(|row: &Row| row.figure(|frame| frame.flip, row.strategy.flip)).csv("flip").both("FLIP", 4),
+        Column::new(|row: &Row| row.figure(|frame| frame.disoccluded_db, row.strategy.disoccluded_db))
             .csv("disoccluded_db")
             .both("there dB", 2),
         Column::new(|row: &Row| row.time(|time| time.frame_us)).csv("frame_us").both("us/frame", 1),
-        Column::new(|row: &Row| row.of_all(row.way.x_one)).csv("x_one").both("x one", 2),
+        Column::new(|row: &Row| row.of_all(row.strategy.x_one)).csv("x_one").both("x one", 2),
         Column::new(|row: &Row| row.time(|time| time.x_copy)).both("x copy", 2),
-        Column::new(|row: &Row| row.of_all(row.way.update_us)).csv("update_us").both("us/update", 1),
+        Column::new(|row: &Row| row.of_all(row.strategy.update_us)).csv("update_us").both("us/update", 1),
     ]
 }
 

@@ -13,8 +13,8 @@ use crate::update::{Sample, Update};
 /// Extents of so many cells and more have a full colour.
 const FULL: u32 = 16;
 
-/// The update's luma, and over it what may be uncovered: red from the left, green from the right, blue from above or
-/// below; the stronger the farther what is uncovered reaches from the cell. The wings are shown too.
+/// Returns the update's luma, and over it what may be uncovered: red from the left, green from the right, blue from
+/// above or below; the stronger the farther what is uncovered reaches from the cell. The margin is shown too.
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn picture(job: &Job<'_>) -> Result<Crop, ExperimentError> {
@@ -48,7 +48,7 @@ mod tests {
     use crate::study::job::Request;
 
     /// The ball leaves to the right and upwards: all of it may leave what is behind, and nothing is uncovered on its
-    /// way.
+    /// strategy.
     #[test]
     fn what_leaves_is_coloured_and_what_it_goes_to_is_not() {
         let source = Source::Scene(scene::find("ball").unwrap());

@@ -1,12 +1,12 @@
-//! The ways to know what was hidden side by side: how much of what the warp leaves open each of them fills, for how
-//! many samples and at what cost, and how far the picture is from the truth after the fill ladder did the rest.
+//! A comparison of strategies for hidden samples: how many of the missing cells each of them fills, with how many
+//! samples and at what cost, and how far the picture is from the truth after the fill mode.
 //!
 //! ```text
-//! holes (the warp of the first layer alone) ─┬─▶ shown (each way's frames) ─┬─▶ report ─▶ columns, page
-//! ways ──────────────────────────────────────┴─▶ times (each way's frames) ─┘
+//! holes (the warp of the first layer alone) ─┬─▶ shown (each strategy's frames) ─┬─▶ report ─▶ columns, page
+//! strategies ───────────────────────────────┴─▶ times (each strategy's frames) ─┘
 //! ```
 //!
-//! Errors are measured on all processors, times afterwards on one, each beside a memory copy.
+//! Errors are measured on all processors, times afterwards on one, each relative to a memory copy.
 
 mod columns;
 mod map;
@@ -25,41 +25,41 @@ use crate::metric;
 use crate::output::column;
 use crate::picture::Picture;
 use crate::source::Source;
-use crate::source::hidden::{self, Arrangement, Kind, RADIUS, SEPARATION, Way};
-use report::{FrameCells, SourceReport, WayFrame, WayReport};
+use crate::source::hidden::{self, Arrangement, Kind, RADIUS, SEPARATION, Strategy};
+use report::{FrameCells, SourceReport, StrategyFrame, StrategyReport};
 
 /// What to compare.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Frames, design numbers, rounding, fill; its way does not count.
+    /// Frames, design numbers, rounding, fill; its strategy does not count.
     pub request: Request,
-    /// The ways; the first one is [`Way::ONE`], that the others are compared with.
-    pub ways: Vec<Way>,
+    /// The strategies; the first one is [`Strategy::ONE`], that the others are compared with.
+    pub strategies: Vec<Strategy>,
 }
 
-/// All of them: the first layer alone, and each kind as it comes and culled.
+/// Returns all of them: the first layer alone, and each kind as it comes and culled.
 #[must_use]
-pub fn ways(separation: f64) -> Vec<Way> {
-    let whole = Way { kind: Kind::Second { separation }, ..Way::ONE };
-    let ways = [
-        Way { kind: Kind::Second { separation: 0.0 }, ..whole },
-        Way { arrangement: Arrangement::Nearer, ..whole },
+pub fn strategies(separation: f64) -> Vec<Strategy> {
+    let whole = Strategy { kind: Kind::Second { separation }, ..Strategy::ONE };
+    let strategies = [
+        Strategy { kind: Kind::Second { separation: 0.0 }, ..whole },
+        Strategy { arrangement: Arrangement::Nearer, ..whole },
         whole,
-        Way { kind: Kind::Ddoc { radius: RADIUS }, arrangement: Arrangement::Nearer, ..whole },
-        Way { kind: Kind::Ddoc { radius: RADIUS }, ..whole },
-        Way { kind: Kind::Unlimited, ..whole },
+        Strategy { kind: Kind::Ddoc { radius: RADIUS }, arrangement: Arrangement::Nearer, ..whole },
+        Strategy { kind: Kind::Ddoc { radius: RADIUS }, ..whole },
+        Strategy { kind: Kind::Unlimited, ..whole },
     ];
-    let both = ways.iter().flat_map(|&way| [false, true].map(|culled| Way { culled, ..way }));
-    std::iter::once(Way::ONE).chain(both).collect()
+    let both = strategies.iter().flat_map(|&strategy| [false, true].map(|culled| Strategy { culled, ..strategy }));
+    std::iter::once(Strategy::ONE).chain(both).collect()
 }
 
 impl Default for Plan {
     fn default() -> Self {
-        Self { request: Request::default(), ways: ways(SEPARATION) }
+        Self { request: Request::default(), strategies: strategies(SEPARATION) }
     }
 }
 
-/// What is said beside the sources.
+/// What is reported besides the sources.
 #[derive(Clone, Debug, Serialize)]
 pub struct Extra {
     /// How far a separated second layer lies behind the first at least, as a part of the depth range.
@@ -74,9 +74,9 @@ pub struct Extra {
 pub type Document = super::Document<Extra, SourceReport>;
 
 impl Plan {
-    /// Returns the separation of the separated ways.
+    /// Returns the separation of the separated strategies.
     fn separation(&self) -> f64 {
-        let separations = self.ways.iter().filter_map(|way| match way.kind {
+        let separations = self.strategies.iter().filter_map(|strategy| match strategy.kind {
             Kind::Second { separation } => Some(separation),
             _ => None,
         });
@@ -101,11 +101,11 @@ impl super::Study for Plan {
     }
 
     fn pieces(&self, _job: &Job<'_>) -> u64 {
-        self.ways.len() as u64
+        self.strategies.len() as u64
     }
 
     fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
-        Ok(match compare(job, self, || (stage.tell)(Work::Done)).map_err(StudyError::unusable)? {
+        Ok(match compare(job, self, || (stage.notify)(Work::Done)).map_err(StudyError::unusable)? {
             Study::NothingDisoccluded => Found::Nothing(Nothing::Disoccluded),
             Study::NothingHidden => Found::Nothing(Nothing::Hidden),
             Study::Compared(report) => Found::Report(*report),
@@ -128,48 +128,49 @@ impl super::Study for Plan {
     }
 }
 
-/// What a source had to say.
+/// The result for a source.
 pub enum Study {
     /// Nothing is disoccluded in it.
     NothingDisoccluded,
     /// It knows nothing behind its first layer.
     NothingHidden,
-    /// How the ways compare, without those that it does not have.
+    /// How the strategies compare, without those that it does not have.
     Compared(Box<SourceReport>),
 }
 
-/// Compares the ways on a source. `done` is told of each way that is through.
+/// Compares the strategies on a source. `done` is called after each strategy.
 ///
 /// *Errors:* a budget that cannot exist or does not fit.
 pub fn study(source: &Source, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, ExperimentError> {
     compare(&Job::resolve(source, &plan.request)?, plan, done)
 }
 
-/// Compares the ways on a job, as [`study`] does.
+/// Compares the strategies on a job, as [`study`] does.
 fn compare(job: &Job<'_>, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, ExperimentError> {
-    let ways: Vec<Way> = plan.ways.iter().copied().filter(|way| hidden::has(job.source, way.kind)).collect();
-    if ways.iter().all(|way| way.kind == Kind::None) {
+    let strategies: Vec<Strategy> =
+        plan.strategies.iter().copied().filter(|strategy| hidden::has(job.source, strategy.kind)).collect();
+    if strategies.iter().all(|strategy| strategy.kind == Kind::None) {
         return Ok(Study::NothingHidden);
     }
-    let holes = holes::of(&job.with_way(Way::ONE), None)?;
+    let holes = holes::of(&job.with_strategy(Strategy::ONE), None)?;
     let Some(largest) = crops::largest(&holes) else { return Ok(Study::NothingDisoccluded) };
-    let shown: Vec<Shown> = ways
+    let shown: Vec<Shown> = strategies
         .par_iter()
-        .map(|&way| {
-            let shown = show(job, way, &holes, largest.frame);
+        .map(|&strategy| {
+            let shown = show(job, strategy, &holes, largest.frame);
             done();
             shown
         })
         .collect::<Result<_, _>>()?;
-    let times = times::of(job, &ways)?;
+    let times = times::of(job, &strategies)?;
     let of_one = times.first().and_then(|(time, _)| *time);
     let mut crops = crops::of_truth(&holes, &largest);
-    let reports = shown.into_iter().zip(&ways).zip(times).map(|((shown, &way), (time, update_us))| {
-        crops.extend(shown.largest.map(|picture| crops::crop(way.name(), &picture, &largest)));
+    let reports = shown.into_iter().zip(&strategies).zip(times).map(|((shown, &strategy), (time, update_us))| {
+        crops.extend(shown.largest.map(|picture| crops::crop(strategy.name(), &picture, &largest)));
         let x_one = time.zip(of_one).map(|(time, one)| time.frame_us / one.frame_us.max(1e-9));
-        WayReport { hidden: shown.hidden, time, x_one, update_us, ..WayReport::of(way, shown.frames) }
+        StrategyReport { hidden: shown.hidden, time, x_one, update_us, ..StrategyReport::of(strategy, shown.frames) }
     });
-    let ways = reports.collect();
+    let strategies = reports.collect();
     Ok(Study::Compared(Box::new(SourceReport {
         source: job.source.name().to_owned(),
         about: job.source.about().to_owned(),
@@ -177,7 +178,7 @@ fn compare(job: &Job<'_>, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, 
         height: job.update.display_height(),
         frames: job.frames,
         cells: holes.iter().map(cells).collect(),
-        ways,
+        strategies,
         largest,
         crops,
         map: Some(map::picture(job)?),
@@ -188,24 +189,24 @@ fn cells(holes: &Holes) -> FrameCells {
     FrameCells { frame: holes.frame, missing: count(&holes.all), disoccluded: count(&holes.disoccluded) }
 }
 
-/// What a way showed.
+/// What a strategy showed.
 struct Shown {
-    frames: Vec<WayFrame>,
+    frames: Vec<StrategyFrame>,
     hidden: Option<hidden::HiddenReport>,
     /// The picture with the largest disocclusion.
     largest: Option<Picture>,
 }
 
-fn show(job: &Job<'_>, way: Way, holes: &[Holes], wanted: u32) -> Result<Shown, ExperimentError> {
+fn show(job: &Job<'_>, strategy: Strategy, holes: &[Holes], wanted: u32) -> Result<Shown, ExperimentError> {
     let (mut frames, mut largest) = (Vec::with_capacity(holes.len()), None);
     let mut rest = holes.iter().peekable();
-    let report = run::job(&job.with_way(way).without_perception(), |frame| {
+    let report = run::job(&job.with_strategy(strategy).without_perception(), |frame| {
         let Some(holes) = rest.next_if(|holes| holes.frame == frame.frame) else { return };
         let counts = |cell: usize| frame.truth.is_none_or(|truth| truth.mask.as_ref().is_none_or(|mask| mask[cell]));
         let missing: Vec<bool> = (0..frame.reached.len()).map(|cell| !frame.reached[cell] && counts(cell)).collect();
         let inside: Vec<bool> = missing.iter().zip(&holes.disoccluded).map(|(&a, &b)| a && b).collect();
         let mask = frame.truth.and_then(|truth| truth.mask.as_deref());
-        frames.push(WayFrame {
+        frames.push(StrategyFrame {
             frame: holes.frame,
             missing: count(&missing),
             disoccluded: count(&inside),

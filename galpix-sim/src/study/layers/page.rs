@@ -5,7 +5,7 @@ use maud::{Markup, html};
 
 use super::Document;
 use super::columns::{columns, summaries};
-use super::report::{SourceReport, WayReport};
+use super::report::{SourceReport, StrategyReport};
 use crate::output::column;
 use crate::output::html::axis::Scale;
 use crate::output::html::scatter::{self, Mark, Scatter, Shape};
@@ -17,7 +17,7 @@ use crate::study::crops;
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
-        "What a thing covers now may be seen before the next update comes. Each way below hands over samples of what is behind, in layers that move \
+        "What a thing covers now may be seen before the next update comes. Each strategy below hands over samples of what is behind, in layers that move \
          on their own; what none of them has is made up as without them."
             .to_owned(),
     ];
@@ -38,12 +38,12 @@ ever showed. <b>Culled</b>: only what the disocclusion map says can be uncovered
 not connected with the border. <b>PSNR</b> and <b>FLIP</b> (0 for equals) are of the whole picture after holes were filled, means over the frames; \
 <b>there</b> is the PSNR of the disoccluded cells.</li>\
 <li><b>Behind</b>: what is behind the first layer is in a layer of its own. Else what covers something is in a layer of its own, and what is behind it is with \
-the rest. <b>DDOC</b>: what a depth discontinuity occlusion camera sees around edges, in an anchored layer. <b>Unlimited</b>, each surface whole in a layer of its own, is a bound and no way to ship.</li>\
+the rest. <b>DDOC</b>: what a depth discontinuity occlusion camera sees around edges, in a stationary-source layer. <b>Unlimited</b>, each surface whole in a layer of its own, is a bound and no strategy to ship.</li>\
 <li><b>Time</b> is that of the whole frame with its fill on one core, in the form whose budget is chosen at run time: the median, by that of the first layer \
 alone (<b>\u{00D7} one</b>) and by a memory copy of its map in the same run (<b>\u{00D7} copy</b>).</li>";
 
 fn foot(document: &Document) -> Markup {
-    let mut notes = vec!["layers.csv and layers.json beside this page hold every figure, frame by frame.".to_owned()];
+    let mut notes = vec!["layers.csv and layers.json in this folder hold every figure, frame by frame.".to_owned()];
     let extra = &document.extra;
     if !extra.nothing_disoccluded.is_empty() {
         notes.push(format!("Nothing is disoccluded in {}.", extra.nothing_disoccluded.join(", ")));
@@ -51,7 +51,7 @@ fn foot(document: &Document) -> Markup {
     if !extra.nothing_hidden.is_empty() {
         notes.push(format!("Nothing is known behind the first layer of {}.", extra.nothing_hidden.join(", ")));
     }
-    page::notes("Beside this", &notes)
+    page::notes("Notes", &notes)
 }
 
 fn section(index: usize, source: &SourceReport) -> Markup {
@@ -87,25 +87,25 @@ struct Shown {
     title: &'static str,
     axis: &'static str,
     remark: &'static str,
-    figure: fn(&WayReport) -> Option<f64>,
+    figure: fn(&StrategyReport) -> Option<f64>,
 }
 
 const CARRIED: Shown = Shown {
     title: "Missing cells against samples",
-    axis: "samples handed over beside the first layer",
+    axis: "hidden samples handed over",
     remark: "Lower is better; to the right: what has to be rendered, sent and kept. Diamonds are culled.",
-    figure: |way| Some(way.hidden.as_ref().map_or(0.0, |hidden| f64::from(hidden.kept))),
+    figure: |strategy| Some(strategy.hidden.as_ref().map_or(0.0, |hidden| f64::from(hidden.kept))),
 };
 
 const TIME: Shown = Shown {
     title: "Missing cells against time",
     axis: "time of a frame, by that of the first layer alone",
     remark: "Lower is better; to the right: what a frame costs.",
-    figure: |way| way.x_one,
+    figure: |strategy| strategy.x_one,
 };
 
-fn ink(way: &WayReport) -> Ink {
-    match way.name.as_str() {
+fn ink(strategy: &StrategyReport) -> Ink {
+    match strategy.name.as_str() {
         "one layer" => Ink::Hold,
         name if name.starts_with("DDOC") => Ink::Bound,
         name if name.starts_with("unlimited") => Ink::Axis,
@@ -116,14 +116,14 @@ fn ink(way: &WayReport) -> Ink {
 }
 
 fn plot(source: &SourceReport, shown: &Shown) -> Markup {
-    let mark = |way: &WayReport| {
+    let mark = |strategy: &StrategyReport| {
         Some(Mark {
-            at: ((shown.figure)(way)?, way.missing as f64 / way.frames.len().max(1) as f64),
+            at: ((shown.figure)(strategy)?, strategy.missing as f64 / strategy.frames.len().max(1) as f64),
             bound: None,
             radius: 5.0,
-            ink: ink(way),
-            shape: if way.name.contains("culled") { Shape::Diamond } else { Shape::Disc },
-            label: way.name.clone(),
+            ink: ink(strategy),
+            shape: if strategy.name.contains("culled") { Shape::Diamond } else { Shape::Disc },
+            label: strategy.name.clone(),
         })
     };
     let drawing = scatter::svg(&Scatter {
@@ -131,7 +131,7 @@ fn plot(source: &SourceReport, shown: &Shown) -> Markup {
         x: (shown.axis.to_owned(), Scale::Linear),
         y: ("missing cells a frame".to_owned(), Scale::Linear),
         courses: Vec::new(),
-        marks: source.ways.iter().filter_map(mark).collect(),
+        marks: source.strategies.iter().filter_map(mark).collect(),
     });
     page::plotted(shown.title, drawing, shown.remark)
 }

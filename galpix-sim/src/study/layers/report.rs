@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::metric::stats;
-use crate::source::hidden::{HiddenReport, Way};
+use crate::source::hidden::{HiddenReport, Strategy};
 use crate::study::crops::{Crop, Largest};
 use crate::study::timing::Time;
 
@@ -18,9 +18,9 @@ pub struct FrameCells {
     pub disoccluded: u64,
 }
 
-/// A way in a frame.
+/// A strategy in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct WayFrame {
+pub struct StrategyFrame {
     /// Frames since the update.
     pub frame: u32,
     /// Cells that no galpixel reached.
@@ -35,9 +35,9 @@ pub struct WayFrame {
     pub disoccluded_db: Option<f64>,
 }
 
-/// A way over all frames.
+/// A strategy over all frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WayReport {
+pub struct StrategyReport {
     /// Its name.
     pub name: String,
     /// What was handed over, where anything was.
@@ -59,7 +59,7 @@ pub struct WayReport {
     /// Of the disoccluded cells of all frames together, decibels.
     pub disoccluded_db: Option<f64>,
     /// The frames with a truth.
-    pub frames: Vec<WayFrame>,
+    pub frames: Vec<StrategyFrame>,
 }
 
 /// A source.
@@ -77,8 +77,9 @@ pub struct SourceReport {
     pub frames: u32,
     /// The frames with a truth, ascending.
     pub cells: Vec<FrameCells>,
-    /// The ways; the first is that of the first layer alone.
-    pub ways: Vec<WayReport>,
+    /// The strategies; the first is that of the first layer alone.
+    #[serde(rename = "ways")]
+    pub strategies: Vec<StrategyReport>,
     /// The largest connected disoccluded area of all frames.
     pub largest: Largest,
     /// What was shown around it.
@@ -89,13 +90,13 @@ pub struct SourceReport {
     pub map: Option<Crop>,
 }
 
-impl WayReport {
-    /// The sums and means of its frames.
+impl StrategyReport {
+    /// Creates the sums and means of its frames.
     #[must_use]
-    pub fn of(way: Way, frames: Vec<WayFrame>) -> Self {
-        let mean = |of: fn(&WayFrame) -> Option<f64>| stats::mean(frames.iter().filter_map(of));
+    pub fn of(strategy: Strategy, frames: Vec<StrategyFrame>) -> Self {
+        let mean = |of: fn(&StrategyFrame) -> Option<f64>| stats::mean(frames.iter().filter_map(of));
         Self {
-            name: way.name(),
+            name: strategy.name(),
             hidden: None,
             time: None,
             x_one: None,
@@ -111,13 +112,13 @@ impl WayReport {
 }
 
 impl SourceReport {
-    /// The way with this name.
+    /// Returns the strategy with this name.
     #[must_use]
-    pub fn way(&self, name: &str) -> Option<&WayReport> {
-        self.ways.iter().find(|way| way.name == name)
+    pub fn strategy(&self, name: &str) -> Option<&StrategyReport> {
+        self.strategies.iter().find(|strategy| strategy.name == name)
     }
 
-    /// Disoccluded cells of all frames, with the first layer alone.
+    /// Returns the disoccluded cells of all frames, with the first layer alone.
     #[must_use]
     pub fn disoccluded(&self) -> u64 {
         self.cells.iter().map(|frame| frame.disoccluded).sum()

@@ -1,9 +1,9 @@
-//! The time of a frame in each way, in the form that the simulator runs: a budget chosen at run time.
+//! The time of a frame in each strategy, in the form that the simulator runs: a budget chosen at run time.
 
 use galpix_core::{Galpixmap, Grid};
 
-use crate::engine::{Beside, Engine, EngineError, grid, margin};
-use crate::source::hidden::{Carried, Layer, Way};
+use crate::engine::{Engine, EngineError, HiddenLayer, grid, margin};
+use crate::source::hidden::{Carried, Layer, Strategy};
 use crate::study::job::{ExperimentError, Job};
 use crate::study::timing::{Contender, Effort, Maker, Time, race};
 use crate::update::Update;
@@ -15,10 +15,10 @@ const ROUNDS: u32 = 5;
 /// Cells from which on one round counts.
 const LARGE: usize = 400_000;
 
-/// The time of a frame of a way, and the microseconds that its disocclusion map took, where there is one.
-pub type WayTime = (Option<Time>, Option<f64>);
+/// The time of a frame of a strategy, and the microseconds that its disocclusion map took, where there is one.
+pub type StrategyTime = (Option<Time>, Option<f64>);
 
-/// An update and what is handed over beside it.
+/// An update and its hidden layers.
 struct Layered<'u> {
     engine: Engine,
     carried: &'u Carried,
@@ -38,9 +38,9 @@ impl Contender for Layered<'_> {
     }
 
     fn times(&mut self, frames: u32) -> Vec<f64> {
-        let beside: Vec<Beside<'_>> = self.carried.layers.iter().map(Layer::beside).collect();
+        let hidden: Vec<HiddenLayer<'_>> = self.carried.layers.iter().map(Layer::for_engine).collect();
         let mut times = Vec::with_capacity(frames as usize);
-        let ran = self.engine.run_layers(&self.carried.base, &beside, frames, |frame| {
+        let ran = self.engine.run_layers(&self.carried.base, &hidden, frames, |frame| {
             if frame.number > 0 {
                 times.push(frame.time.as_secs_f64());
             }
@@ -50,14 +50,15 @@ impl Contender for Layered<'_> {
     }
 }
 
-/// Returns the times of a job, one a way.
+/// Returns the times of a job, one per strategy.
 ///
-/// *Errors:* a map that does not fit, a source that has not what a way hands over.
-pub fn of(job: &Job<'_>, ways: &[Way]) -> Result<Vec<WayTime>, ExperimentError> {
+/// *Errors:* a map that does not fit, a source without the samples of a strategy.
+pub fn of(job: &Job<'_>, strategies: &[Strategy]) -> Result<Vec<StrategyTime>, ExperimentError> {
     let update = job.update.as_ref();
-    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.wings))];
+    let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];
     let bytes = 4 * Galpixmap::words(&grid(update, &mut starts).map_err(EngineError::from)?, job.format);
-    let carried: Vec<Carried> = ways.iter().map(|&way| job.with_way(way).carried()).collect::<Result<_, _>>()?;
+    let carried: Vec<Carried> =
+        strategies.iter().map(|&strategy| job.with_strategy(strategy).carried()).collect::<Result<_, _>>()?;
     let make =
         |carried| -> Maker<'_> { Box::new(move || Some(Box::new(Layered { engine: job.engine(), carried, bytes }))) };
     let makers: Vec<Maker<'_>> = carried.iter().map(make).collect();

@@ -1,4 +1,4 @@
-//! The lines of Rust that make a plan so.
+//! The Rust code of a plan.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use galpix_core::{Layout, Settings};
 
 use super::Build;
 
-/// Profile and settings of a plan.
+/// Returns the profile and settings of a plan.
 pub fn text(source: &str, build: &Build, record: &Record, settings: Settings) -> String {
     let name = type_name(source);
     let mut text = format!(
@@ -37,7 +37,7 @@ pub fn text(source: &str, build: &Build, record: &Record, settings: Settings) ->
     text
 }
 
-/// A layout of RGB888 by what it has beyond [`Layout::STILL`].
+/// Returns a layout of RGB888 by what it has beyond [`Layout::STILL`].
 fn layout_text(layout: Layout) -> String {
     let Layout { colour: _, depth_bits, velocity, acceleration, depth_motion, luminosity, tag_bits: _ } = layout;
     let mut kept = String::new();
@@ -57,7 +57,7 @@ fn layout_text(layout: Layout) -> String {
     if kept.is_empty() { "Layout::STILL".to_owned() } else { format!("Layout {{ {kept}..Layout::STILL }}") }
 }
 
-/// The source's name as that of a type.
+/// Returns the source's name as that of a type.
 fn type_name(source: &str) -> String {
     let mut name = String::from("Planned");
     let mut capital = true;

@@ -1,4 +1,4 @@
-//! Depth and rung, decided by running the update: what is left out must not change the pictures.
+//! Depth and fill mode, decided by running the update: what is left out must not change the pictures.
 
 use galpix_core::record::Component;
 use galpix_core::{FillMode, Layout, Record};
@@ -7,14 +7,14 @@ use super::extremes::Extremes;
 use super::measured::{Ran, Subject};
 use super::{Build, PlanError};
 
-/// The share of all pixels of all frames that may differ before a lane is kept.
+/// The share of all pixels of all frames that may differ before a field is kept.
 const TOLERATED: f64 = 1e-3;
 
 /// Bits of a z-buffer that are tried, from none.
 const DEPTHS: [u32; 4] = [0, 4, 8, 12];
 
-/// Takes out of a build what its pictures do not need, and says why.
-pub fn settle(
+/// Removes from a build what its pictures do not need, with the reasons.
+pub fn decide(
     subject: &Subject<'_>,
     extremes: &Extremes,
     build: &mut Build,
@@ -24,13 +24,13 @@ pub fn settle(
         build.layout = Layout { depth_bits: 0, depth_motion: false, ..build.layout };
         build.fill_mode = FillMode::None;
         reasons.push("depth is left out: nothing moves, so nothing collides and nothing is uncovered".to_owned());
-        reasons.push("no rung is needed: there are no holes".to_owned());
+        reasons.push("no fill mode is needed: there are no holes".to_owned());
         return Ok(());
     }
     let whole = subject.run(build)?;
     depth_motion(subject, extremes, build, &whole, reasons)?;
     depth_bits(subject, build, &whole, reasons)?;
-    rung(subject, build, &whole, reasons)
+    fill_mode(subject, build, &whole, reasons)
 }
 
 fn depth_motion(
@@ -85,15 +85,20 @@ fn depth_bits(
     Ok(())
 }
 
-fn rung(subject: &Subject<'_>, build: &mut Build, whole: &Ran, reasons: &mut Vec<String>) -> Result<(), PlanError> {
+fn fill_mode(
+    subject: &Subject<'_>,
+    build: &mut Build,
+    whole: &Ran,
+    reasons: &mut Vec<String>,
+) -> Result<(), PlanError> {
     if whole.holes == 0 {
         build.fill_mode = FillMode::None;
-        reasons.push("no rung is needed: there are no holes".to_owned());
+        reasons.push("no fill mode is needed: there are no holes".to_owned());
         return Ok(());
     }
     if whole.unobscured == 0 {
         build.fill_mode = FillMode::Bullet;
-        reasons.push("the rung bullet does: every hole lies inside a surface".to_owned());
+        reasons.push("the fill mode bullet does: every hole lies inside a surface".to_owned());
         return Ok(());
     }
     let mut shown = Vec::new();
@@ -103,14 +108,14 @@ fn rung(subject: &Subject<'_>, build: &mut Build, whole: &Ran, reasons: &mut Vec
     }
     let best = shown.iter().filter_map(|&(_, psnr_db)| psnr_db).reduce(f64::max);
     let Some(best) = best else {
-        reasons.push("the rung extend is kept: no truth says that a cheaper one does".to_owned());
+        reasons.push("the fill mode extend is kept: no truth says that a cheaper one does".to_owned());
         return Ok(());
     };
     // A tenth of a decibel is not seen.
     let cheapest = shown.iter().find(|(_, psnr_db)| psnr_db.is_some_and(|psnr_db| psnr_db >= best - 0.1));
     if let Some(&(fill_mode, Some(psnr_db))) = cheapest {
         build.fill_mode = fill_mode;
-        reasons.push(format!("the rung {} does: {psnr_db:.2} dB of at most {best:.2} dB", fill_mode.name()));
+        reasons.push(format!("the fill mode {} does: {psnr_db:.2} dB of at most {best:.2} dB", fill_mode.name()));
     }
     Ok(())
 }

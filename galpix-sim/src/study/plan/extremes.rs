@@ -7,9 +7,9 @@ use crate::update::{Known, Update};
 /// Of one axis of the plane, over all samples whose motion is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Reach {
-    /// The largest speed in any frame of the plan, in pixels a frame.
+    /// The largest speed in any frame of the plan, in pixels per frame.
     pub speed: f64,
-    /// The largest acceleration, in pixels a frame².
+    /// The largest acceleration, in pixels per frame².
     pub acceleration: f64,
     /// The farthest that the acceleration alone carries a sample, in pixels.
     pub by_acceleration_px: f64,
@@ -57,7 +57,7 @@ impl Reach {
     }
 }
 
-/// The largest of `|v t + a t²/2|` for t in 0 to n: at the end, or where it turns round.
+/// Returns the largest of `|v t + a t²/2|` for t in 0 to n: at the end, or where it turns round.
 fn farthest(v: f64, a: f64, n: f64) -> f64 {
     let at = |t: f64| (v * t + a * t * t / 2.0).abs();
     let turn = -v / a;

@@ -21,7 +21,7 @@ pub struct Measured {
     pub worst_px: Option<f64>,
     /// Whether that is within what was certified; null where nothing was.
     pub within_certificate: Option<bool>,
-    /// Fields that were clamped, when stored or on the way: none is covered by a certificate.
+    /// Fields that were clamped, when stored or in a step: none is covered by a certificate.
     pub saturated: u64,
     /// The median time of a frame, in microseconds, with the budget chosen at run time.
     pub frame_us: f64,
@@ -43,7 +43,7 @@ pub struct Ran {
 }
 
 impl Subject<'_> {
-    /// The settings of a build with this stored form.
+    /// Returns the settings of a build with this stored form.
     pub fn settings(&self, build: &Build, record: &Record) -> Settings {
         let request = Request { rounding: build.rounding, fill: build.fill_mode.into(), ..self.0.request };
         request.settings(record, self.0.update.depth_kind)
@@ -78,7 +78,7 @@ impl Subject<'_> {
 }
 
 impl Ran {
-    /// The share of pixels, over all frames, that differ from those of another run.
+    /// Returns the share of pixels, over all frames, that differ from those of another run.
     pub fn differs(&self, other: &Self) -> f64 {
         let pairs = self.pictures.iter().zip(&other.pictures).flat_map(|(a, b)| a.pixels.iter().zip(&b.pixels));
         let (different, all) =
@@ -86,7 +86,7 @@ impl Ran {
         different as f64 / all.max(1) as f64
     }
 
-    /// The mean likeness to the truth, over the frames whose truth is known.
+    /// Returns the mean likeness to the truth, over the frames whose truth is known.
     pub fn psnr_db(&self, subject: &Subject<'_>) -> Option<f64> {
         let known = (1..).zip(&self.pictures).filter_map(|(frame, picture)| {
             let truth = subject.0.source.truth(frame)?;
@@ -95,7 +95,7 @@ impl Ran {
         mean(known)
     }
 
-    /// What is reported of this run; its time is measured later, beside others.
+    /// Returns what is reported of this run; its time is measured later, together with others.
     pub fn measured(&self, certified_px: Option<f64>) -> Measured {
         // The import itself rounds to 32 fraction bits.
         let slack = 1e-6;

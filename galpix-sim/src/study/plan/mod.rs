@@ -1,12 +1,13 @@
-//! What a scene does not need: the lanes, bits, rounding and rung that keep an error asked for, with a certificate.
+//! What a scene does not need: the fields, bits, rounding and fill mode that keep an error asked for, with a
+//! certificate.
 //!
 //! ```text
-//! update ─▶ extremes (how fast, how far) ─▶ motion (lanes and bits in the plane) ─▶ depth (lanes and bits of depth)
-//!                     ─▶ rung (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust)
+//! update ─▶ extremes (how fast, how far) ─▶ motion (fields and bits in the plane) ─▶ depth (fields and bits of depth)
+//!                     ─▶ fill mode (which holes there are) ─▶ measured (run, and checked) ─▶ code (the Rust)
 //! ```
 //!
-//! The plane is decided by arithmetic: what leaving a lane out costs at most is added to the certificate of what is
-//! left. Depth and rung are decided by running the update: a display does exactly that.
+//! The fields in the plane are chosen by arithmetic: the largest error of a field that is left out is added to the
+//! certificate of the rest. Depth and fill mode are chosen by running the update, as a display does.
 
 mod code;
 mod depth;
@@ -47,9 +48,9 @@ pub enum PlanError {
 /// What a display needs for one source and one error.
 #[derive(Clone, Debug, Serialize)]
 pub struct Plan {
-    /// The position error that was asked for, in pixels.
+    /// The requested position error, in pixels.
     pub max_error_px: f64,
-    /// Lanes and bits in the plane.
+    /// Fields and bits in the plane.
     pub motion: Motion,
     /// Bits of the z-buffer; 0 where no depth is needed.
     pub depth_bits: u32,
@@ -57,9 +58,10 @@ pub struct Plan {
     pub depth_motion: bool,
     /// Whether the luminosity moves.
     pub luminosity: bool,
-    /// The name of the rung of the fill ladder.
-    pub rung: &'static str,
-    /// Why each lane and rung is kept or left out, a sentence each.
+    /// The name of the fill mode.
+    #[serde(rename = "rung")]
+    pub fill_mode: &'static str,
+    /// Why each field and fill mode is kept or left out, a sentence each.
     pub reasons: Vec<String>,
     /// Bits in use of a galpixel.
     pub used_bits_per_galpixel: u32,
@@ -82,7 +84,7 @@ pub(crate) struct Build {
     pub fill_mode: FillMode,
 }
 
-/// A plan for the error asked for, one for a tighter error, and the full budget beside them.
+/// A plan for the requested error, one for a tighter error, and the full budget.
 #[derive(Clone, Debug, Serialize)]
 pub struct Planning {
     /// Scene or capture.
@@ -95,11 +97,11 @@ pub struct Planning {
     pub frames: u32,
     /// What the update holds.
     pub extremes: Extremes,
-    /// For the error asked for.
+    /// For the requested error.
     pub plan: Plan,
     /// For a tighter error; null where no budget reaches it.
     pub tighter: Option<Plan>,
-    /// The paper's widths with every lane, over a 16-bit z-buffer, and the richest rung.
+    /// The paper's widths with every field, over a 16-bit z-buffer, and the richest fill mode.
     pub full: Full,
 }
 
@@ -174,7 +176,7 @@ fn full(subject: &Subject<'_>, demand: Demand) -> Result<Full, PlanError> {
     })
 }
 
-/// A plan for one error.
+/// Returns a plan for one error.
 fn one(subject: &Subject<'_>, extremes: &Extremes, demand: Demand, max_error: f64) -> Result<Plan, PlanError> {
     let motion = Motion::for_error(extremes, subject.0.frames, max_error)?;
     let mut reasons = motion.reasons(extremes, max_error);
@@ -197,7 +199,7 @@ fn one(subject: &Subject<'_>, extremes: &Extremes, demand: Demand, max_error: f6
     let derived = Bits::derive(demand)?;
     let bits = derived.with_xy(motion.x.component, motion.y.component).with_z(z, derived.depth_int);
     let mut build = Build { bits, layout, rounding: motion.rounding(), fill_mode: FillMode::Extend };
-    depth::settle(subject, extremes, &mut build, &mut reasons)?;
+    depth::decide(subject, extremes, &mut build, &mut reasons)?;
     let record = Record::plan(build.bits, build.layout)?;
     let ran = subject.run(&build)?;
     let code = code::text(subject.0.source.name(), &build, &record, subject.settings(&build, &record));
@@ -206,7 +208,7 @@ fn one(subject: &Subject<'_>, extremes: &Extremes, demand: Demand, max_error: f6
         depth_bits: build.layout.depth_bits,
         depth_motion: build.layout.depth_motion,
         luminosity,
-        rung: build.fill_mode.name(),
+        fill_mode: build.fill_mode.name(),
         reasons,
         used_bits_per_galpixel: record.bits(),
         stored_bytes_per_galpixel: record.bytes(),

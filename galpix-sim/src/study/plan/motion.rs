@@ -1,4 +1,4 @@
-//! Lanes and bits in the plane: what leaving a lane out costs at most, and the certificate of what is left.
+//! Fields and bits in the plane: what leaving a field out costs at most, and the certificate of what is left.
 
 use galpix_core::Rounding;
 use galpix_core::record::{Component, WIDEST_FIELD};
@@ -10,7 +10,7 @@ use crate::certificate::{Unreachable, smallest};
 /// One axis of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Axis {
-    /// What leaving lanes out costs at most, in pixels.
+    /// What leaving fields out costs at most, in pixels.
     pub left_out_px: f64,
     /// What storing and rounding cost at most, in pixels; 0 where every value is stored exactly.
     pub arithmetic_px: f64,
@@ -30,14 +30,14 @@ struct Widths {
 }
 
 impl Axis {
-    /// The certified error, in pixels.
+    /// Returns the certified error, in pixels.
     #[must_use]
     pub fn certified_px(&self) -> f64 {
         self.left_out_px + self.arithmetic_px
     }
 }
 
-/// Lanes and bits in the plane.
+/// Fields and bits in the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Motion {
     /// Whether there is a velocity.
@@ -54,12 +54,12 @@ pub struct Motion {
     pub certified_px: f64,
 }
 
-/// A component without motion: nothing is stored but what the layout asks of every component.
+/// A component without motion: only what the layout needs for each component is stored.
 const STILL: Component =
     Component { position_frac: 0, velocity_int: 1, velocity_frac: 0, acceleration_int: 0, acceleration_frac: 0 };
 
 impl Motion {
-    /// The fewest bits that keep `max_error` pixels for `frames` frames.
+    /// Creates the fewest bits that keep `max_error` pixels for `frames` frames.
     ///
     /// *Errors:* if no budget does.
     pub fn for_error(extremes: &Extremes, frames: u32, max_error: f64) -> Result<Self, Unreachable> {
@@ -98,12 +98,12 @@ impl Motion {
         self.x.component.motion_bits() + self.y.component.motion_bits()
     }
 
-    /// The rounding.
+    /// Returns the rounding.
     pub(crate) fn rounding(&self) -> Rounding {
         Rounding::ALL.into_iter().find(|rounding| rounding.name() == self.rounding).unwrap_or_default()
     }
 
-    /// Why the lanes of the plane are kept or left out.
+    /// Returns why the fields of the plane are kept or left out.
     pub(crate) fn reasons(&self, extremes: &Extremes, max_error: f64) -> Vec<String> {
         let [distance, by_acceleration] = [
             extremes.x.distance_px.max(extremes.y.distance_px),
@@ -124,7 +124,7 @@ impl Motion {
     }
 }
 
-/// The fewest bits of one axis; what left-out accelerations cost is taken off the error first.
+/// Returns the fewest bits of one axis; what left-out accelerations cost is taken off the error first.
 ///
 /// *Errors:* `None` where leaving the acceleration out costs too much, else why no budget does.
 fn axis(
@@ -154,7 +154,7 @@ fn axis(
     Ok(Axis { left_out_px, arithmetic_px: certificate.total_px, component })
 }
 
-/// Integer bits, sign included, that hold values of this size with `room` pixels a frame to spare.
+/// Returns integer bits, sign included, that hold values of this size with `room` pixels per frame to spare.
 fn integer_bits(value: f64, room: f64) -> u32 {
     let needed = (value + room).log2().ceil().max(0.0) as u32 + 1;
     needed.min(WIDEST_FIELD)

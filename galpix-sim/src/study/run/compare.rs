@@ -1,4 +1,4 @@
-//! A frame beside the truth: as a picture, and galpixel by galpixel.
+//! A frame compared with the truth: as a picture, and galpixel by galpixel.
 
 use super::report::{PositionReport, TruthReport};
 use crate::engine::Frame;
@@ -53,15 +53,15 @@ impl Errors {
     }
 }
 
-/// How far the galpixels of a frame are from where they should be: of those that `cell` says are samples of the update,
-/// and which.
+/// Returns how far the galpixels of a frame are from where they should be: of those that are samples of the update by
+/// `cell`, and which.
 pub(crate) fn position(
     source: &Source,
     update: &Update,
     frame: &Frame<'_>,
     cell: impl Fn(u32) -> Option<usize>,
 ) -> Option<PositionReport> {
-    let wings = [update.wings.left as f64, update.wings.top as f64];
+    let margin = [update.margin.left as f64, update.margin.top as f64];
     let time = f64::from(frame.number);
     let (mut second_order, mut truth) = (Errors::default(), Errors::default());
     for (origin, place) in frame.places() {
@@ -71,8 +71,8 @@ pub(crate) fn position(
         let along = |i: usize| from[i] + sample.velocity[i] * time + sample.acceleration[i] / 2.0 * time * time;
         second_order.add(place, [along(0), along(1)]);
         if let Source::Scene(scene) = source {
-            let [x, y, _] = scene.track(from[0] - wings[0], from[1] - wings[1], 0.0, time);
-            truth.add(place, [x + wings[0], y + wings[1]]);
+            let [x, y, _] = scene.track(from[0] - margin[0], from[1] - margin[1], 0.0, time);
+            truth.add(place, [x + margin[0], y + margin[1]]);
         }
     }
     (second_order.count > 0).then(|| PositionReport {

@@ -6,7 +6,7 @@ mod work;
 
 use galpix_core::{Format, Tally};
 
-pub use super::job::{ExperimentError, Request, check_way};
+pub use super::job::{ExperimentError, Request, check_strategy};
 pub use compare::compare;
 pub(crate) use compare::position;
 pub use report::{BudgetReport, FrameReport, PositionReport, RunReport, TruthReport};
@@ -14,11 +14,11 @@ pub use work::work_gain;
 
 use super::job::Job;
 use crate::certificate::Certificate;
-use crate::engine::{Beside, Frame};
+use crate::engine::{Frame, HiddenLayer};
 use crate::metric::stats::median;
 use crate::picture::Picture;
 use crate::source::Source;
-use crate::source::hidden::{self, HiddenReport, Way};
+use crate::source::hidden::{self, HiddenReport, Strategy};
 use crate::update::Truth;
 
 /// What a visitor sees of each frame, the update (frame 0) included.
@@ -44,15 +44,15 @@ pub fn run(source: &Source, request: &Request, visit: impl FnMut(&Shown<'_>)) ->
 
 /// Runs a job and compares every frame whose truth is known; `visit` sees each frame.
 ///
-/// *Errors:* a source that has not what is wanted behind its first layer, a map that does not fit.
+/// *Errors:* a source without the requested hidden samples, a map that does not fit.
 pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport, ExperimentError> {
     let Job { source, frames, demand, format, settings, request, .. } = job;
     let update = job.update.as_ref();
     let carried = job.carried()?;
-    let beside: Vec<Beside<'_>> = carried.layers.iter().map(hidden::Layer::beside).collect();
+    let hidden: Vec<HiddenLayer<'_>> = carried.layers.iter().map(hidden::Layer::for_engine).collect();
     let hold = update.picture();
     let mut reports = Vec::with_capacity(*frames as usize);
-    let ran = job.engine().run_layers(&carried.base, &beside, *frames, |frame| {
+    let ran = job.engine().run_layers(&carried.base, &hidden, *frames, |frame| {
         let picture = frame.picture();
         let truth = source.truth(frame.number);
         let reached = frame.reached();
@@ -62,7 +62,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
             let position = compare::position(source, update, frame, |origin| carried.first(origin));
             let report = report(frame, position, truth);
             let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;
-            let from_hidden = (request.way != Way::ONE).then(hidden);
+            let from_hidden = (request.strategy != Strategy::ONE).then(hidden);
             reports.push(FrameReport { from_hidden, ..report });
         }
     })?;
@@ -79,7 +79,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         scan_out: request.scan_out.name(),
         ns_per_galpixel: median(times).unwrap_or(0.0),
         loaded: ran.loaded,
-        hidden: (request.way != Way::ONE).then(|| HiddenReport::of(request.way, &carried, &ran)),
+        hidden: (request.strategy != Strategy::ONE).then(|| HiddenReport::of(request.strategy, &carried, &ran)),
         census: source.census().cloned(),
         certificate: Certificate::of(&format.record().scales[0], layout.acceleration, request.rounding, demand.prop),
         frames: reports,

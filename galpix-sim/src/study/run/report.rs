@@ -76,7 +76,7 @@ pub struct TruthReport {
 }
 
 /// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each
-/// galpixel the worse of x and y.
+/// galpixel the larger of x and y.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PositionReport {
     /// The worst, against the exact second-order path of the update's motion: what the certificate bounds.
@@ -136,7 +136,7 @@ pub struct RunReport {
     pub budget: BudgetReport,
     /// Rounding of positions.
     pub rounding: &'static str,
-    /// Rung of the fill ladder.
+    /// Fill mode.
     pub fill: &'static str,
     /// Laplacian threshold, in units of the depth's last bit.
     pub edge_threshold: u32,
@@ -146,7 +146,7 @@ pub struct RunReport {
     pub ns_per_galpixel: f64,
     /// What entered with the update.
     pub loaded: LoadTally,
-    /// What was handed over beside the first layer, if anything was.
+    /// Which hidden samples were handed over, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hidden: Option<HiddenReport>,
     /// What was known of a capture's cells.

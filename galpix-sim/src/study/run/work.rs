@@ -1,9 +1,9 @@
-//! What skipping saves: the same frames in both modes of work.
+//! What the data-dependent step saves: the same frames in both modes.
 
 use crate::metric::stats;
 use crate::study::job::{ExperimentError, Job};
 
-/// Returns the time of a frame with constant work by that of the same frame without what its picture does not need: the
+/// Returns the time of a constant-time frame divided by that of the same data-dependent frame: the
 /// medians of the first `frames` frames of a job, whose bits are the same in both modes. 1 where no frame was made.
 ///
 /// *Errors:* a map that does not fit.
@@ -17,6 +17,6 @@ pub fn work_gain(job: &Job<'_>, frames: u32) -> Result<f64, ExperimentError> {
         })?;
         Ok(stats::median(times).unwrap_or(0.0))
     };
-    let (skipping, constant) = (median(false)?, median(true)?);
-    Ok(if skipping > 0.0 { constant / skipping } else { 1.0 })
+    let (data_dependent, constant_time) = (median(false)?, median(true)?);
+    Ok(if data_dependent > 0.0 { constant_time / data_dependent } else { 1.0 })
 }

@@ -17,7 +17,7 @@ pub struct Case {
     pub stress: &'static str,
     /// Components of galpixels that are followed.
     pub paths: fn(&Setting) -> Vec<Path>,
-    /// Pictures that go through all stages with every rung.
+    /// Pictures that go through all stages with every fill mode.
     pub pictures: fn(&Setting) -> Vec<Picture>,
 }
 
@@ -29,7 +29,7 @@ const fn pictures(name: &'static str, stress: &'static str, pictures: fn(&Settin
     Case { name, stress, paths: |_| Vec::new(), pictures }
 }
 
-/// All of them, in the order in which they are told.
+/// All of them, in order.
 pub const ALL: [Case; 22] = [
     paths(
         "turn-round",
@@ -71,11 +71,15 @@ pub const ALL: [Case; 22] = [
         "all fields of a galpixel at their ends at once, shading inertia and tag included",
         pictures::every_field,
     ),
-    pictures("checkerboard", "every second cell the other way, along rows, columns and both", pictures::checkerboard),
+    pictures(
+        "checkerboard",
+        "neighbours move in opposite directions, along rows, columns and both",
+        pictures::checkerboard,
+    ),
     pictures("one-cell", "all galpixels want one cell", pictures::one_cell),
     pictures("off-screen", "all galpixels leave in one frame", pictures::off_screen),
     pictures("empty", "a map without a galpixel", pictures::empty),
     pictures("sizes", "one cell, one row, one column, odd sides, one more and one less than a chunk", pictures::sizes),
-    pictures("wings", "wings of 0, of different widths, and larger than the display", pictures::wings),
+    pictures("wings", "overscan margins of 0, of different widths, and larger than the display", pictures::margins),
     pictures("old-debris", "debris four times as old as tau_prop among galpixels", pictures::old_debris),
 ];

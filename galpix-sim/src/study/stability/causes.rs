@@ -1,7 +1,7 @@
 //! Follows a path and splits its error by cause, exactly.
 //!
-//! Five places lie between the true one and the cell that the display shows; what lies between two neighbours of them
-//! is the share of one cause, so that the shares add up to the whole error whatever the engine does:
+//! Between the true place and the cell shown lie four more places. The distance between two successive places is the
+//! share of one cause, so that the shares always add up to the whole error:
 //!
 //! ```text
 //! true motion ─ Taylor ─ exact path of the exact r, v, a ─ quantisation ─ that of r, v, a to nearest
@@ -17,7 +17,7 @@ use super::mover::{Moved, Mover, State};
 use super::path::Path;
 use super::setting::{Ranges, Setting};
 
-/// What parts the cell shown from the true place, in pixels: `true - shown` and its shares.
+/// The difference between the cell shown and the true place, in pixels: `true - shown` and its shares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Causes {
     /// What position, velocity and acceleration cannot know.
@@ -33,7 +33,7 @@ pub struct Causes {
 }
 
 impl Causes {
-    /// All shares together.
+    /// Returns all shares together.
     #[must_use]
     pub fn total(&self) -> Px {
         [self.taylor, self.quantisation, self.saturation, self.drift, self.snapping].into_iter().sum()
@@ -68,7 +68,7 @@ pub struct Row {
 pub struct Followed {
     /// Frame by frame, from the first update on.
     pub rows: Vec<Row>,
-    /// Fields that the engine said it clamped.
+    /// Fields that the engine counted as clamped.
     pub clamped: u32,
     /// What the engine did and may not do, one sentence each: for each kind the first time.
     pub findings: Vec<String>,
@@ -122,8 +122,8 @@ impl Reference {
         (reference, clamped)
     }
 
-    /// One frame later; and how many fields were clamped. `threshold` and `before`: of the engine, whose depth ends
-    /// where it would leave its range.
+    /// Returns one frame later; and how many fields were clamped. `threshold` and `before`: of the engine, whose depth
+    /// ends where it would leave its range.
     fn step(&mut self, ranges: &Ranges, threshold: i32, before: State) -> u32 {
         let scale = &ranges.scale;
         let [_, v, a] = self.raw;
@@ -161,7 +161,7 @@ fn fracs(ranges: &Ranges) -> [u32; 3] {
     [scale.position_frac, scale.velocity_frac, scale.acceleration_frac]
 }
 
-/// The cell that a state shows; a depth is not snapped.
+/// Returns the cell that a state shows; a depth is not snapped.
 fn shown(state: State, ranges: &Ranges) -> Px {
     if ranges.far.is_some() { Px::of(state.position, ranges.scale.position_frac) } else { Px::of(state.cell, 0) }
 }

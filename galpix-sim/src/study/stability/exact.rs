@@ -13,25 +13,25 @@ const FRAC: u32 = 40;
 pub struct Px(i128);
 
 impl Px {
-    /// `raw / 2^frac`; `frac` is at most 40.
+    /// Returns `raw / 2^frac`; `frac` is at most 40.
     #[must_use]
     pub fn of(raw: i64, frac: u32) -> Self {
         Self(i128::from(raw) << (FRAC - frac))
     }
 
-    /// A number of an update, in a unit of `2^unit` cells.
+    /// Creates a number of an update, in a unit of `2^unit` cells.
     #[must_use]
     pub fn given(value: I32F32, unit: u32) -> Self {
         Self((i128::from(value.to_bits()) << (FRAC - 32)) << unit)
     }
 
-    /// The nearest multiple to a floating-point number; 0 for what is none.
+    /// Creates the nearest multiple to a floating-point number; 0 for what is none.
     #[must_use]
     pub fn near(value: f64) -> Self {
         Self((value * (1u64 << FRAC) as f64).round() as i128)
     }
 
-    /// The nearest floating-point number.
+    /// Returns the nearest floating-point number.
     #[must_use]
     pub fn to_f64(self) -> f64 {
         self.0 as f64 / (1u64 << FRAC) as f64
@@ -45,19 +45,19 @@ impl Px {
         ((self.0 + half) >> shift) as i64
     }
 
-    /// The size without the sign.
+    /// Returns the size without the sign.
     #[must_use]
     pub fn abs(self) -> Self {
         Self(self.0.abs())
     }
 
-    /// `self` a frame for `frames` frames.
+    /// Returns the distance of a velocity of `self` over `frames` frames.
     #[must_use]
     pub fn times(self, frames: u32) -> Self {
         Self(self.0 * i128::from(frames))
     }
 
-    /// `self * frames² / 2`: what an acceleration moves in that time.
+    /// Returns `self * frames² / 2`: what an acceleration moves in that time.
     #[must_use]
     pub fn accelerated(self, frames: u32) -> Self {
         Self(self.0 / 2 * i128::from(frames) * i128::from(frames))

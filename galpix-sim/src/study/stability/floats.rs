@@ -29,7 +29,7 @@ macro_rules! float {
                 self.velocity += self.acceleration;
             }
 
-            /// How far it is from an exact place, in pixels.
+            /// Returns how far it is from an exact place, in pixels.
             #[must_use]
             pub fn off_px(&self, exact: Px) -> f64 {
                 (exact - Px::near(self.position.into())).to_f64()

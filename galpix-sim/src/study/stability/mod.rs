@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! cases ─▶ path ─▶ mover (the engine) ─▶ causes (exact shares) ─▶ verdict (by the law of the budget)
-//!     └──▶ picture (the real controller, every rung) ─▶ what goes in comes out or is counted
+//!     └──▶ picture (the real controller, every fill mode) ─▶ what goes in comes out or is counted
 //! ```
 
 pub mod cases;
@@ -31,7 +31,7 @@ pub use setting::{Law, Ranges, Setting, SettingError};
 pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
 
 use super::run::BudgetReport;
-use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Told, Work};
+use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
 use crate::engine::EngineError;
 use mover::{Mover, Strip};
 use verdict::{Verdict, judge};
@@ -45,7 +45,7 @@ pub enum StabilityError {
     /// There is no such case.
     #[error("there is no case `{name}`: give one or more of {}", names().join(", "))]
     NoSuchCase {
-        /// What was asked for.
+        /// The request.
         name: String,
     },
     /// A picture cannot be laid out.
@@ -86,7 +86,7 @@ impl Study for Request {
     type Report = Report;
     type Extra = NoExtra;
 
-    const PATH: Told = Told::Always;
+    const PATH: PathPrinted = PathPrinted::Always;
 
     fn name<'a>(&self, (): &'a ()) -> &'a str {
         "stability"
@@ -101,7 +101,7 @@ impl Study for Request {
     }
 
     fn study(&self, (): &(), stage: &Stage<'_>) -> Result<Found<Report>, StudyError> {
-        let report = run(self, |case| (stage.tell)(Work::DoneWith(case)));
+        let report = run(self, |case| (stage.notify)(Work::DoneWith(case)));
         report.map(Found::Report).map_err(StudyError::unusable)
     }
 
@@ -136,14 +136,14 @@ impl Study for Request {
     }
 }
 
-/// The names of all cases.
+/// Returns the names of all cases.
 #[must_use]
 pub fn names() -> Vec<&'static str> {
     ALL.iter().map(|case| case.name).collect()
 }
 
 impl Request {
-    /// Whether it can be run at all.
+    /// Returns whether it can be run at all.
     ///
     /// *Errors:* as [`run`].
     pub fn check(&self) -> Result<(), StabilityError> {
@@ -154,7 +154,7 @@ impl Request {
         }
     }
 
-    /// The cases that it asks for.
+    /// Returns the requested cases.
     pub fn cases(&self) -> impl Iterator<Item = &'static Case> {
         ALL.iter().filter(|case| self.cases.is_empty() || self.cases.iter().any(|name| name == case.name))
     }
@@ -166,7 +166,7 @@ struct Laws {
     components: [Law; 3],
 }
 
-/// Runs the suite; `done` is told each case that is ready.
+/// Runs the suite; `done` is called with each finished case.
 ///
 /// *Errors:* a budget that cannot exist or moves too fast, a case that does not exist.
 pub fn run(request: &Request, done: impl Fn(&'static str) + Sync) -> Result<Report, StabilityError> {
@@ -206,12 +206,12 @@ fn run_case(case: &Case, setting: &Setting, laws: &Laws) -> Result<RoundingRepor
     }
     let mut pictures: Vec<picture::Outcome> = Vec::new();
     for picture in (case.pictures)(setting) {
-        for rung in FillMode::ALL {
+        for fill_mode in FillMode::ALL {
             let [x, y, _] = &laws.components;
-            let mut outcome = picture::run(&picture, setting, [x, y], laws.rounding, rung)?;
+            let mut outcome = picture::run(&picture, setting, [x, y], laws.rounding, fill_mode)?;
             let twin = pictures
                 .iter()
-                .find(|other| picture.same_as.as_ref() == Some(&other.picture) && other.rung == rung.name());
+                .find(|other| picture.same_as.as_ref() == Some(&other.picture) && other.fill_mode == fill_mode.name());
             if twin.is_some_and(|twin| twin.bits != outcome.bits) {
                 outcome.findings.push(format!("other bits than `{}`", picture.same_as.as_deref().unwrap_or_default()));
             }
@@ -233,7 +233,7 @@ pub fn run_path(
     PathReport::of(path, &followed, law, judge(&followed, law))
 }
 
-/// The worst of some verdicts.
+/// Returns the worst of some verdicts.
 fn worst(verdicts: impl Iterator<Item = Verdict>) -> Verdict {
     verdicts.max().unwrap_or(Verdict::Bounded)
 }

@@ -52,7 +52,7 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// The engine for one component.
+    /// Creates the engine for one component.
     ///
     /// *Errors:* a budget that does not fit the layout.
     pub fn new(setting: &Setting, component: usize, rounding: Rounding) -> Result<Self, BudgetError> {
@@ -89,7 +89,7 @@ impl Strip {
         }
     }
 
-    /// Cells of a strip that holds the next step, and the cell to start from.
+    /// Returns the cells of a strip that holds the next step, and the cell to start from.
     fn strip(&self) -> (u32, i32) {
         if self.component == 2 {
             return (1, 0);

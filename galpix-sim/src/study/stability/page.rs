@@ -1,4 +1,4 @@
-//! The page: what the suite found, a section a case.
+//! The page: what the suite found, a section per case.
 
 mod plots;
 
@@ -9,7 +9,7 @@ use super::verdict::{Uncovered, Verdict};
 use crate::output::html::text::{Text, anchor, count};
 use crate::output::html::{cell, document, list};
 
-/// The report as one HTML document that needs nothing but itself.
+/// Returns the report as one HTML document that needs nothing but itself.
 #[must_use]
 pub fn html(report: &Report, seconds: f64) -> String {
     let budget = &report.budget;
@@ -75,7 +75,7 @@ fn reading() -> Markup {
     }
 }
 
-/// A length in pixels: four digits after the point while it is small, powers of ten where it is tiny.
+/// Returns a length in pixels: four digits after the point while it is small, powers of ten where it is tiny.
 fn px(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -132,7 +132,7 @@ fn overview(report: &Report) -> Markup {
             }
             (picture_overview(report))
             p.remark {
-                "Cells, all frames and all rungs of the fill ladder together. position: the largest error of a galpixel of the \
+                "Cells, all frames and all fill modes together. position: the largest error of a galpixel of the \
                  update, in pixels."
             }
         }
@@ -143,7 +143,7 @@ fn name(index: usize, case: &CaseReport) -> Markup {
     html! { th scope="row" { a href={ "#" (anchor(index, case.name)) } { (Text(case.name)) } } }
 }
 
-/// The cases of which something is shown, with their places.
+/// Returns the cases of which something is shown, with their places.
 fn cases(report: &Report) -> impl Iterator<Item = (usize, &CaseReport, &RoundingReport)> {
     report.cases.iter().enumerate().filter_map(|(index, case)| Some((index, case, case.shown()?)))
 }
@@ -213,14 +213,14 @@ fn section(index: usize, case: &CaseReport, shown: &RoundingReport) -> Markup {
     }
 }
 
-/// What is not covered, in words.
+/// Returns what is not covered, in words.
 pub fn reasons(uncovered: &Uncovered) -> Vec<String> {
     let Uncovered { taylor_px, saturation_px, past_prop_px } = *uncovered;
-    let say = |what: &str, value: Option<f64>| value.map(|value| format!("{what} {}\u{a0}px", px(value)));
+    let part = |what: &str, value: Option<f64>| value.map(|value| format!("{what} {}\u{a0}px", px(value)));
     [
-        say("Taylor error up to", taylor_px),
-        say("clamped fields, which cost up to", saturation_px),
-        say("frames after tau_prop, off by up to", past_prop_px),
+        part("Taylor error up to", taylor_px),
+        part("clamped fields, which cost up to", saturation_px),
+        part("frames after tau_prop, off by up to", past_prop_px),
     ]
     .into_iter()
     .flatten()
@@ -299,5 +299,5 @@ fn picture_table(shown: &RoundingReport) -> Markup {
     let names = PICTURE_COLUMNS.iter().map(|column| column.0);
     let heads: Vec<&str> = ["picture"].into_iter().chain(names).chain(["position px"]).collect();
     let rows: Vec<Markup> = shown.pictures.iter().map(row).collect();
-    details(&format!("Picture by picture, {} rounding, all rungs together", shown.rounding), &heads, &rows)
+    details(&format!("Picture by picture, {} rounding, all fill modes together", shown.rounding), &heads, &rows)
 }

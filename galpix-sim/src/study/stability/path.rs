@@ -17,9 +17,9 @@ pub enum Motion {
     Analytic(Analytic),
 }
 
-/// One component of one galpixel on its way.
+/// One component of one moving galpixel.
 pub struct Path {
-    /// What tells it from the others of its case.
+    /// What distinguishes it from the others of its case.
     pub name: String,
     /// x (0), y (1) or depth (2).
     pub component: usize,
@@ -44,7 +44,7 @@ pub struct Given {
 }
 
 impl Path {
-    /// A path from one update on.
+    /// Creates a path from one update on.
     pub fn new(name: impl Into<String>, component: usize, motion: Motion, frames: u32) -> Self {
         Self { name: name.into(), component, motion, frames, every: None, counter: 0 }
     }
@@ -61,7 +61,7 @@ impl Path {
         Self { counter, ..self }
     }
 
-    /// The true position.
+    /// Returns the true position.
     #[must_use]
     pub fn place(&self, time: u32) -> Px {
         match &self.motion {
@@ -70,7 +70,7 @@ impl Path {
         }
     }
 
-    /// What an update at `time` hands over.
+    /// Returns what an update at `time` hands over.
     #[must_use]
     pub fn given(&self, setting: &Setting, time: u32) -> Given {
         let [r, v, a] = match &self.motion {

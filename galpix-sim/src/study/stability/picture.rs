@@ -17,13 +17,13 @@ const FLOAT_PX: f64 = 1e-9;
 
 /// A picture and how long it is moved on.
 pub struct Picture {
-    /// What tells it from the others of its case.
+    /// What distinguishes it from the others of its case.
     pub name: String,
     /// Columns and rows of the display.
     pub size: [u32; 2],
     /// What the map has beyond it.
     pub margin: Margin,
-    /// What cell (x, y) of the map holds; wings included.
+    /// What cell (x, y) of the map holds; margin included.
     pub galpixel: Box<dyn Fn(u32, u32) -> Galpixel + Send + Sync>,
     /// What a galpixel carries.
     pub layout: Layout,
@@ -53,7 +53,7 @@ pub struct Census {
 }
 
 impl Census {
-    /// What does not add up, in words.
+    /// Returns what does not add up, in words.
     #[must_use]
     pub fn findings(&self) -> Vec<String> {
         let Tally { moved, lost, collided, holes, bullets, debris, galdebris, empty, edges, .. } = self.tally;
@@ -79,14 +79,15 @@ impl Census {
     }
 }
 
-/// What a picture gave with one rung.
+/// What a picture gave with one fill mode.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Outcome {
     /// The picture's name.
     pub picture: String,
-    /// The rung of the fill ladder.
-    pub rung: &'static str,
-    /// Cells of the map, wings included.
+    /// The fill mode.
+    #[serde(rename = "rung")]
+    pub fill_mode: &'static str,
+    /// Cells of the map, margin included.
     pub cells: u32,
     /// Frames made.
     pub frames: u32,
@@ -116,7 +117,7 @@ pub struct Outcome {
     pub findings: Vec<String>,
 }
 
-/// Moves a picture on with a rung.
+/// Moves a picture on with a fill mode.
 ///
 /// *Errors:* a picture that cannot be laid out.
 pub fn run(
@@ -142,7 +143,7 @@ pub fn run(
     let settings = Settings { rounding, fill_mode, ..Settings::for_depth(setting.record.depth().bits.into()) };
     let mut outcome = Outcome {
         picture: picture.name.clone(),
-        rung: fill_mode.name(),
+        fill_mode: fill_mode.name(),
         cells: grid.cells(),
         frames: picture.frames,
         bound_px: laws[0].bound_px(picture.frames, picture.counter == 0),

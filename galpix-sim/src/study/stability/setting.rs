@@ -1,4 +1,4 @@
-//! The budget that the suite runs under: what its fields hold, and what its certificate says frame by frame.
+//! The budget that the suite runs under: what its fields hold, and its certificate frame by frame.
 
 use galpix_core::record::{Component, Record, Scale};
 use galpix_core::{Bits, BudgetError, Demand, Layout, Rounding};
@@ -47,7 +47,7 @@ pub struct Ranges {
 }
 
 impl Setting {
-    /// The paper's budget for a demand.
+    /// Creates the paper's budget for a demand.
     ///
     /// *Errors:* a budget that cannot exist, or whose steps no map can hold.
     pub fn new(demand: Demand) -> Result<Self, SettingError> {
@@ -60,7 +60,7 @@ impl Setting {
         Ok(Self { demand, bits, record })
     }
 
-    /// The widths of a component.
+    /// Returns the widths of a component.
     #[must_use]
     pub const fn component(&self, component: usize) -> Component {
         match component {
@@ -70,7 +70,7 @@ impl Setting {
         }
     }
 
-    /// What the fields of a component hold.
+    /// Returns what the fields of a component hold.
     #[must_use]
     pub fn ranges(&self, component: usize) -> Ranges {
         let widths = self.component(component);
@@ -82,7 +82,7 @@ impl Setting {
         }
     }
 
-    /// The power of two of the unit that an update gives a component in: cells, in depth the whole range.
+    /// Returns the power of two of the unit that an update gives a component in: cells, in depth the whole range.
     #[must_use]
     pub const fn unit(&self, component: usize) -> u32 {
         if component == 2 { self.bits.depth_int } else { 0 }
@@ -107,7 +107,7 @@ pub struct Law {
 }
 
 impl Law {
-    /// The law of a component for `frames` frames without an update.
+    /// Creates the law of a component for `frames` frames without an update.
     #[must_use]
     pub fn of(setting: &Setting, component: usize, rounding: Rounding, frames: u32) -> Self {
         let scale = &setting.record.scales[component];
@@ -123,7 +123,8 @@ impl Law {
         }
     }
 
-    /// Quantisation and drift after `frame` frames, in pixels. `aligned`: the update entered at frame 0 of the counter.
+    /// Returns the quantisation and drift after `frame` frames, in pixels. `aligned`: the update entered at frame 0 of
+    /// the counter.
     #[must_use]
     pub fn bound_px(&self, frame: u32, aligned: bool) -> f64 {
         match self.after(frame) {
@@ -133,7 +134,7 @@ impl Law {
         }
     }
 
-    /// Drift alone after `frame` frames, in pixels.
+    /// Returns the drift alone after `frame` frames, in pixels.
     #[must_use]
     pub fn drift_px(&self, frame: u32, aligned: bool) -> f64 {
         // Of a searched table that an update does not enter at its first entry only the largest drift is known.
@@ -141,7 +142,7 @@ impl Law {
         self.drift_of(&self.beyond, any, frame, aligned)
     }
 
-    /// The same for a galpixel without acceleration.
+    /// Returns the same for a galpixel without acceleration.
     #[must_use]
     pub fn steady_drift_px(&self, frame: u32, aligned: bool) -> f64 {
         self.drift_of(&self.steady, &self.steady, frame, aligned)

@@ -62,14 +62,14 @@ pub struct RoundingReport {
     pub drift_up_to_px: Vec<f64>,
     /// Path by path.
     pub paths: Vec<PathReport>,
-    /// Picture by picture, all rungs together.
+    /// Picture by picture, all fill modes together.
     pub pictures: Vec<PictureReport>,
 }
 
 /// One path.
 #[derive(Clone, Debug, Serialize)]
 pub struct PathReport {
-    /// What tells it from the others.
+    /// What distinguishes it from the others.
     pub name: String,
     /// `x`, `y` or `depth`; depths are in bins, which are of the size of pixels.
     pub component: &'static str,
@@ -89,7 +89,7 @@ pub struct PathReport {
     pub series: Vec<SeriesRow>,
 }
 
-/// One picture, all rungs together.
+/// One picture, all fill modes together.
 #[derive(Clone, Debug, Default, Serialize)]
 #[allow(missing_docs)] // as in `picture::Outcome`
 pub struct PictureReport {
@@ -105,17 +105,17 @@ pub struct PictureReport {
     pub followed: u64,
     pub worst_px: f64,
     pub bound_px: f64,
-    /// Frame by frame, with the richest rung: settled, lost, collided, holes.
+    /// Frame by frame, with the richest fill mode: settled, lost, collided, holes.
     pub tallies: Vec<[u32; 4]>,
 }
 
 impl Report {
-    /// The cases under a budget.
+    /// Creates the cases under a budget.
     pub fn of(budget: BudgetReport, cases: Vec<CaseReport>) -> Self {
         Self { budget, stable: worst(cases.iter().map(|case| case.verdict)) != Verdict::Unstable, cases }
     }
 
-    /// The cases that came out like this.
+    /// Returns the cases that came out like this.
     #[must_use]
     pub fn count(&self, verdict: Verdict) -> usize {
         self.cases.iter().filter(|case| case.verdict == verdict).count()
@@ -123,14 +123,14 @@ impl Report {
 }
 
 impl CaseReport {
-    /// A case with its roundings.
+    /// Creates a case with its roundings.
     #[must_use]
     pub fn of(case: &Case, roundings: Vec<RoundingReport>) -> Self {
         let verdict = worst(roundings.iter().map(|rounding| rounding.verdict));
         Self { name: case.name, stress: case.stress, verdict, roundings }
     }
 
-    /// What the tables show: the default rounding, or the only one.
+    /// Returns what the tables show: the default rounding, or the only one.
     #[must_use]
     pub fn shown(&self) -> Option<&RoundingReport> {
         let default = self.roundings.iter().find(|rounding| rounding.rounding == Rounding::default().name());
@@ -139,7 +139,7 @@ impl CaseReport {
 }
 
 impl RoundingReport {
-    /// The paths and pictures of a case.
+    /// Creates the paths and pictures of a case.
     #[must_use]
     pub fn of(rounding: Rounding, mut paths: Vec<PathReport>, pictures: Vec<Outcome>) -> Self {
         let frames = pictures.iter().map(|picture| picture.frames);
@@ -156,7 +156,7 @@ impl RoundingReport {
         let uncovered = paths.iter().fold(Uncovered::default(), |sum, path| sum.with(path.uncovered));
         let in_paths = paths.iter().flat_map(|path| path.findings.iter().map(|text| format!("{}: {text}", path.name)));
         let in_pictures = pictures.iter().flat_map(|picture| {
-            picture.findings.iter().map(|text| format!("{}, {}: {text}", picture.picture, picture.rung))
+            picture.findings.iter().map(|text| format!("{}, {}: {text}", picture.picture, picture.fill_mode))
         });
         let findings = in_paths.chain(in_pictures).collect();
         let all = paths.iter().map(|path| path.worst).reduce(Shares::with);
@@ -168,7 +168,7 @@ impl RoundingReport {
         }
         (1..drift_up_to_px.len())
             .for_each(|frame| drift_up_to_px[frame] = drift_up_to_px[frame].max(drift_up_to_px[frame - 1]));
-        // One path a case is told frame by frame.
+        // One path per case is reported frame by frame.
         let farthest = (0..paths.len()).max_by(|&one, &two| {
             let key = |path: &PathReport| (path.verdict == Verdict::Unstable, path.worst.total_px);
             let (one, two) = (key(&paths[one]), key(&paths[two]));
@@ -193,14 +193,14 @@ impl RoundingReport {
         }
     }
 
-    /// The path that is told frame by frame.
+    /// Returns the path that is reported frame by frame.
     #[must_use]
-    pub fn told(&self) -> Option<&PathReport> {
+    pub fn reported(&self) -> Option<&PathReport> {
         self.paths.iter().find(|path| !path.series.is_empty())
     }
 }
 
-/// The rungs of each picture together.
+/// Returns the fill modes of each picture together.
 fn together(outcomes: &[Outcome]) -> Vec<PictureReport> {
     let mut reports: Vec<PictureReport> = Vec::new();
     for outcome in outcomes {
@@ -225,7 +225,7 @@ fn together(outcomes: &[Outcome]) -> Vec<PictureReport> {
 }
 
 impl PathReport {
-    /// A path that was followed and judged.
+    /// Creates a path that was followed and judged.
     #[must_use]
     pub fn of(path: &Path, followed: &Followed, law: &Law, judged: Judged) -> Self {
         let shares = followed.rows.iter().map(|row| Shares::of(row, law, followed.aligned));

@@ -173,7 +173,7 @@ fn every_fault_is_found_and_its_absence_is_not() {
     }
 }
 
-/// The drift of a planted engine grows by less than a last bit a frame, far below a jump: the law finds it.
+/// The drift of a planted engine grows by less than a last bit per frame, far below a jump: the law finds it.
 #[test]
 fn a_slow_growth_without_an_update_is_found_by_the_law_beyond_the_certificate() {
     let path = path(1.0, 0.0, 512);

@@ -1,4 +1,4 @@
-//! What the terminal says: paths, pictures, and the drift of each rounding, a line a case each.
+//! What the terminal shows: paths, pictures, and the drift of each rounding, one line per case.
 
 use super::summary::{CaseReport, PictureReport, Report, RoundingReport, Shares};
 use super::verdict::{Uncovered, Verdict};
@@ -57,16 +57,16 @@ fn pictures<'r>() -> [Column<Row<'r>>; 11] {
         Column::new(|row: &Row| row.largest(|picture| picture.worst_px)).terminal("px", 0),
         Column::new(|row: &Row| row.largest(|picture| picture.bound_px)).terminal("bound", 0),
         Column::new(|row: &Row| row.sum(|picture| picture.clamped)).terminal("clamped", 0),
-        Column::new(|row: &Row| row.verdict()).terminal("verdict, all rungs", 0).words(),
+        Column::new(|row: &Row| row.verdict()).terminal("verdict, all fill modes", 0).words(),
     ]
 }
 
-/// The drift of a case with its `N`-th rounding.
+/// Returns the drift of a case with its `N`-th rounding.
 fn drift<const N: usize>(case: &CaseReport) -> Value {
     case.roundings.get(N).and_then(|rounding| rounding.worst).map(|worst| px(worst.drift_px)).into()
 }
 
-/// The drift of each case with each rounding.
+/// Returns the drift of each case with each rounding.
 fn drifts(report: &Report) -> Vec<String> {
     let Some(first) = report.cases.iter().find(|case| case.roundings.len() > 1) else { return Vec::new() };
     let mut columns = vec![Column::new(|case: &CaseReport| case.name.into()).terminal("drift, px", 0).words()];
@@ -81,7 +81,7 @@ fn table<'r>(columns: &[Column<Row<'r>>], rows: Vec<Row<'r>>) -> Vec<String> {
     if rows.is_empty() { Vec::new() } else { Table::new(columns, &rows).lines(&rows).collect() }
 }
 
-/// A length in at most six characters.
+/// Returns a length in at most six characters.
 fn px(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -93,7 +93,7 @@ fn px(value: f64) -> String {
     }
 }
 
-/// The verdict with what is not covered, in the order of the columns.
+/// Returns the verdict with what is not covered, in the order of the columns.
 fn verdict(verdict: Verdict, uncovered: Uncovered) -> String {
     let parts = [
         (uncovered.taylor_px.is_some(), "Taylor"),

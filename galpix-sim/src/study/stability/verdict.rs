@@ -20,7 +20,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The word in tables.
+    /// Returns the word in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ pub struct Uncovered {
 }
 
 impl Uncovered {
-    /// Both together.
+    /// Returns both together.
     #[must_use]
     pub fn with(self, other: Self) -> Self {
         let larger = |one: Option<f64>, two: Option<f64>| one.into_iter().chain(two).reduce(f64::max);
@@ -93,12 +93,12 @@ pub fn judge(followed: &Followed, law: &Law) -> Judged {
     Judged { verdict, uncovered, findings }
 }
 
-/// The error of the arithmetic alone: what quantisation and drift make together, in pixels.
+/// Returns the error of the arithmetic alone: what quantisation and drift make together, in pixels.
 fn arithmetic_px(row: &Row) -> f64 {
     (row.causes.quantisation + row.causes.drift).abs().to_f64()
 }
 
-/// The law that a frame breaks. Beyond a clamp the low bits of the velocity may stand still, and with them what
+/// Returns the law that a frame breaks. Beyond a clamp the low bits of the velocity may stand still, and with them what
 /// rounding drops: from there on each frame may drift by one last bit of the position.
 fn broken(row: &Row, law: &Law, aligned: bool, last_clean: u32) -> Option<String> {
     let drift = row.causes.drift.abs().to_f64();
@@ -118,7 +118,7 @@ fn broken(row: &Row, law: &Law, aligned: bool, last_clean: u32) -> Option<String
     }
 }
 
-/// What the certificate does not cover in a frame.
+/// Returns what the certificate does not cover in a frame.
 fn beyond(row: &Row, law: &Law, aligned: bool) -> Uncovered {
     let px = |share: Px| share.abs().to_f64();
     let causes = &row.causes;

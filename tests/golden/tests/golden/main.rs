@@ -1,10 +1,10 @@
-//! Not a bit of any golden vector has changed. Beside it the exhaustive tests of what no frame calls. All of it is what
-//! a mutant of the core is run against.
+//! Not a bit of any golden vector has changed. HiddenLayer it the exhaustive tests of what no frame calls. All of it is
+//! what a mutant of the core is run against.
 
 mod resolve;
 
 /// To accept a change of bits: `cargo run --release -- vectors --out target/vectors`, copy `target/vectors/hashes.txt`
-/// over `tests/golden/hashes.txt`, and say in the changelog why they changed.
+/// over `tests/golden/hashes.txt`, and explain in the changelog why they changed.
 #[test]
 fn the_vectors_have_the_hashes_that_are_kept() {
     let kept = include_str!("../../hashes.txt");

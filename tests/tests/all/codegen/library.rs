@@ -128,14 +128,14 @@ impl Library {
         Ok(())
     }
 
-    /// The global symbols that begin with `prefix`, sorted.
+    /// Returns the global symbols that begin with `prefix`, sorted.
     pub fn entries(&self, prefix: &str) -> Vec<String> {
         let mut names: Vec<_> = self.defined.keys().filter(|name| name.starts_with(prefix)).cloned().collect();
         names.sort();
         names
     }
 
-    /// Everything that `entry` reaches, or nothing if it is not defined.
+    /// Returns everything that `entry` reaches, or nothing if it is not defined.
     pub fn reach(&self, entry: &str) -> Option<Reach> {
         let start = *self.defined.get(entry)?;
         let mut reach = Reach { sections: Vec::new(), undefined: Vec::new() };

@@ -31,7 +31,7 @@ const RISCV: (&str, Machine) = ("riscv32imac-unknown-none-elf", Machine::RiscV32
 /// Optimised for speed, and for size.
 const PROFILES: [&str; 2] = ["release", "small"];
 
-/// Whether the core library for a target is there, and so a program for it can be built.
+/// Returns whether the core library for a target is there, and so a program for it can be built.
 fn installed(target: &str) -> bool {
     let output = Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into()))
         .args(["--print", "target-libdir", "--target", target])

@@ -5,7 +5,7 @@ use std::fmt;
 use super::instructions::{Deed, Machine, read};
 use super::library::Library;
 
-/// The symbol that the panic handler of `tests/codegen` mentions and nobody defines.
+/// The symbol that the panic handler of `tests/codegen` mentions and nothing defines.
 const CAN_PANIC: &str = "galpix_core_can_panic";
 
 /// A kind of fault.
@@ -45,8 +45,8 @@ pub struct Verdict {
     pub findings: Vec<Finding>,
 }
 
-/// Whether a symbol is a helper that the compiler may call for what is no arithmetic: to copy, fill, compare, or to
-/// shift 64 bits.
+/// Returns whether a symbol is a helper that the compiler may call for what is no arithmetic: to copy, fill, compare,
+/// or to shift 64 bits.
 fn harmless_helper(symbol: &str) -> bool {
     const MEMORY: [&str; 5] = ["memcpy", "memmove", "memset", "memclr", "memcmp"];
     const SHIFTS: [&str; 6] = ["__aeabi_llsl", "__aeabi_llsr", "__aeabi_lasr", "__ashldi3", "__lshrdi3", "__ashrdi3"];

@@ -4,7 +4,7 @@
 use galpix_core::disocclusion::{Border, Extents, Reach, Tally, cover, map, mark, spread};
 use galpix_core::{Dynamic, Format, Galpixmap, Grid, Layout, Margin, Record, stages};
 use galpix_tests::layouts::{FLAT565_WITHOUT_DEPTH, TINY_DEEP};
-use galpix_tests::lent::{Shape, with_maps};
+use galpix_tests::memory::{Shape, with_maps};
 use galpix_tests::profiles::{ODD, PAPER, SLIDE, UNEVEN, dynamic};
 use galpix_tests::{packed, random};
 use rand::RngExt;
@@ -13,7 +13,7 @@ use super::doubling::{EXTENTS, spread_by_doubling};
 
 const STALE: u32 = 0x3c5a_7e11;
 
-/// Both spreadings of the same marks.
+/// Returns both spreadings of the same marks.
 fn spread_both(width: u32, height: u32, marks: &[u32]) -> Vec<u32> {
     let mut starts = vec![0; height as usize];
     let grid = Grid::new(width, height, Margin::NONE, &mut starts).unwrap();
@@ -38,7 +38,7 @@ fn raster_and_doubling_agree_on_all_short_rows_and_columns() {
         let row = [0, 1, 2, 3].map(|cell| words[number / count.pow(cell) % count]);
         let spread_row = spread_both(4, 1, &row);
         let spread_column = spread_both(1, 4, &row.map(turned));
-        // The other two extents are carried along, whichever way it goes.
+        // The other two extents are carried along in any direction.
         assert_eq!(spread_row, spread_column.into_iter().map(turned).collect::<Vec<_>>());
     }
 }
@@ -68,7 +68,7 @@ fn raster_and_doubling_agree_on_random_marks() {
                 let mut extent = || generator.random_range(0..long) as u8;
                 let extents = Extents { left: extent(), right: extent(), above: extent(), below: extent() };
                 let word = if generator.random_range(0..60) < dense { extents.word() } else { 0 };
-                // Shut on some ways.
+                // Blocked in some directions.
                 if generator.random_range(0..8) == 0 {
                     word | (generator.random_range(0..16) * 0x0810_2040) & !EXTENTS
                 } else {
@@ -97,7 +97,7 @@ struct Reference<'r> {
 }
 
 impl Reference<'_> {
-    /// The largest sum of the differences of steps, and of these and what rounding adds.
+    /// Returns the largest sum of the differences of steps, and of these and what rounding adds.
     fn ahead(&self, component: usize, one: Motion, other: Motion) -> [i128; 2] {
         let scale = &self.record.scales[component];
         let top = (1i64 << scale.velocity_bits.max(1)) / 2 - 1;
@@ -127,8 +127,8 @@ impl Reference<'_> {
         (-(-ahead >> scale.position_frac)).max(0)
     }
 
-    /// What two neighbours uncover: by the first and by the second. And on which way, backwards or onwards, one of them
-    /// is shut.
+    /// Returns what two neighbours uncover: by the first and by the second. And in which direction, backwards or
+    /// onwards, one of them is blocked.
     fn pair(&self, along: usize, first: Body, second: Body) -> (Option<[[i128; 4]; 2]>, [bool; 2]) {
         let across = 1 - along;
         let motion = |body: Body| body.map_or([Motion::default(); 2], |(_, motion)| motion);
@@ -146,9 +146,9 @@ impl Reference<'_> {
             self.cells(component, one, other) >= 2 || self.cells(component, other, one) >= 2
         });
         let closes = !self.reach.through && !one_surface && apart;
-        let shut = [closes && farther < 0, closes && farther > 0];
+        let blocked = [closes && farther < 0, closes && farther > 0];
         if gap == 0 || one_surface && !parts(along, other[along], one[along]) {
-            return (None, shut);
+            return (None, blocked);
         }
         let onwards = self.cells(across, other[across], one[across]) + 1;
         let backwards = self.cells(across, one[across], other[across]) + 1;
@@ -159,11 +159,11 @@ impl Reference<'_> {
             let [a, b, c, d] = if leaves[of] { extents[of] } else { [0; 4] };
             if along == 0 { [a, b, c, d] } else { [c, d, a, b] }
         });
-        (Some(extents), shut)
+        (Some(extents), blocked)
     }
 }
 
-/// The marks, pair by pair and frame by frame.
+/// Returns the marks, pair by pair and frame by frame.
 fn reference(front: &Galpixmap<'_, Dynamic>, reach: &Reach) -> (Vec<u32>, Tally) {
     let (grid, record) = (*front.grid(), front.record());
     let of = Reference { record, reach: *reach };
@@ -194,10 +194,12 @@ fn reference(front: &Galpixmap<'_, Dynamic>, reach: &Reach) -> (Vec<u32>, Tally)
                 if cells == [None, None] || cells.contains(&None) && reach.border == Border::Continues {
                     continue;
                 }
-                let (by, shut) = of.pair(along, body(x, y), body(x + dx, y + dy));
-                for (shut, (cell, way)) in shut.into_iter().zip(cells.into_iter().zip([2 * along, 2 * along + 1])) {
-                    if shut && let Some(cell) = cell {
-                        extents[cell as usize][way] |= 0x80;
+                let (by, blocked) = of.pair(along, body(x, y), body(x + dx, y + dy));
+                for (blocked, (cell, direction)) in
+                    blocked.into_iter().zip(cells.into_iter().zip([2 * along, 2 * along + 1]))
+                {
+                    if blocked && let Some(cell) = cell {
+                        extents[cell as usize][direction] |= 0x80;
                     }
                 }
                 let Some(by) = by else { continue };
@@ -215,7 +217,7 @@ fn reference(front: &Galpixmap<'_, Dynamic>, reach: &Reach) -> (Vec<u32>, Tally)
     (extents.into_iter().map(u32::from_le_bytes).collect(), tally)
 }
 
-/// Words of which a part is random, and whose motion is mostly slow.
+/// Returns words of which a part is random, and whose motion is mostly slow.
 fn content(record: &Record, shape: Shape, seed: u64) -> Vec<u32> {
     let cells = shape.cells() as usize;
     let noise = random::words(seed, cells * record.words());
@@ -312,7 +314,7 @@ fn marks_are_those_of_each_pair() {
     }
 }
 
-/// Memory that is too short: nothing is said of the cells that are missing, and nothing else is touched.
+/// Memory that is too short: cells without memory get no mark, and nothing else is touched.
 #[test]
 fn what_is_not_lent_is_left_out() {
     let format = dynamic(Layout::VELOCITY565, SLIDE);

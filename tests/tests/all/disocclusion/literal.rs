@@ -9,7 +9,7 @@ use galpix_tests::profiles::dynamic;
 use super::printed::{self, Layer, Owner};
 use super::tiny::{CELLS, Memory, SIDE, Scene, State, bits, uncovered, with_grid};
 
-/// Whole cells a frame, from -4 to 3.
+/// Whole cells per frame, from -4 to 3.
 const WHOLE: Component =
     Component { position_frac: 0, velocity_int: 3, velocity_frac: 0, acceleration_int: 0, acceleration_frac: 0 };
 

@@ -5,7 +5,7 @@ use fixed::types::I32F32;
 use galpix_core::disocclusion::{Border, Reach, covered, map};
 use galpix_core::stages::{snap, step_position};
 use galpix_core::{Galpixel, Layout, Rounding};
-use galpix_tests::lent::{Shape, with_maps};
+use galpix_tests::memory::{Shape, with_maps};
 use galpix_tests::profiles::{SLIDE, dynamic};
 use galpix_tests::{packed, random};
 use rand::RngExt;

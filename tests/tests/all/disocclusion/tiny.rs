@@ -30,7 +30,7 @@ pub struct State {
     pub acceleration: [i32; 2],
 }
 
-/// A budget with this component in x and y.
+/// Returns a budget with this component in x and y.
 pub fn bits(component: Component) -> Bits {
     let component = component.checked().unwrap();
     Bits::must(Bits::derive(Demand { extent: 4, recog: 1, prop: 4 })).with_xy(component, component)
@@ -61,12 +61,12 @@ impl Scene {
         words[0]
     }
 
-    /// The words of a near and of a far galpixel.
+    /// Returns the words of a near and of a far galpixel.
     pub fn words(&self) -> [u32; 2] {
         [self.word(self.near, 0), self.word(self.far, 2)]
     }
 
-    /// Cells that each surface has moved after each frame.
+    /// Returns the cells that each surface has moved after each frame.
     pub fn paths(&self, rounding: Rounding, phase: u32, frames: u32) -> Vec<[[i32; 2]; 2]> {
         let [near, far] = [self.near, self.far].map(|state| {
             [0, 1].map(|component| {

@@ -45,7 +45,7 @@ fn numbers(bits: u32) -> std::ops::Range<i32> {
     if bits == 0 { 0..1 } else { -(1 << (bits - 1))..1 << (bits - 1) }
 }
 
-/// All pairs of numbers.
+/// Returns all pairs of numbers.
 fn squares(of: std::ops::Range<i32>) -> Vec<[i32; 2]> {
     of.clone().flat_map(|y| of.clone().map(move |x| [x, y])).collect()
 }
@@ -155,7 +155,7 @@ fn report(what: &str, count: Count) {
     assert!(count.uncovered > 0 && count.hiding < 9 * count.uncovered);
 }
 
-/// One of every `share` masks, another one for each scene.
+/// Returns one of every `share` masks, another one for each scene.
 fn sampled(share: u32) -> impl Fn(usize, u16) -> bool + Sync {
     move |scene, mask| (u32::from(mask).wrapping_add(scene as u32)).wrapping_mul(0x9e37_79b1) >> 16 < 65536 / share
 }

@@ -3,7 +3,8 @@
 use galpix_core::record::{Component, Shave, WIDEST_FIELD};
 use galpix_core::{Bits, BudgetError, Colour, Demand, Layout, Record};
 
-/// `log2` of a ratio, rounded up. Exact for powers of two; elsewhere far enough from whole numbers for these sizes.
+/// Returns `log2` of a ratio, rounded up. Exact for powers of two; elsewhere far enough from whole numbers for these
+/// sizes.
 fn log2_up(numerator: f64, denominator: f64) -> i64 {
     (numerator / denominator).log2().ceil() as i64
 }

@@ -11,7 +11,7 @@ fn top(channel: Channel) -> u32 {
     (1 << channel.bits) - 1
 }
 
-/// A colour with `level` in one channel, and in all others its complement (clamped), so that nothing may leak.
+/// Returns a colour with `level` in one channel, and in all others its complement (clamped), so that nothing may leak.
 fn with_level(format: Colour, index: usize, wanted: u32) -> u32 {
     let own = format.channels().nth(index).unwrap();
     format.channels().enumerate().fold(0, |colour, (other, channel)| {
@@ -20,7 +20,7 @@ fn with_level(format: Colour, index: usize, wanted: u32) -> u32 {
     })
 }
 
-/// All levels of a channel if there are at most 64, else the ends, the middle and every 17th.
+/// Returns all levels of a channel if there are at most 64, else the ends, the middle and every 17th.
 fn levels(channel: Channel) -> Vec<u32> {
     let all = 0..=top(channel);
     if channel.bits <= 6 {

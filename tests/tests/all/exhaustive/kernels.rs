@@ -28,7 +28,7 @@ const COMPONENTS: [(&str, Component); 8] = [
     ("no acceleration", component(3, [3, 5], [0, 0])),
 ];
 
-/// The arithmetic of a component, as a layout's record holds it.
+/// Returns the arithmetic of a component, as a layout's record holds it.
 fn scale(component: Component) -> Scale {
     let bits = Bits::derive(Demand { extent: 64, recog: 8, prop: 4 }).unwrap();
     let bits = bits.with_xy(component.checked().unwrap(), component);

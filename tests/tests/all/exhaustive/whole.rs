@@ -7,7 +7,7 @@ use galpix_core::{Bits, Class, Demand, Dynamic, FillMode, Format, Galpixmap, Lay
 
 use galpix_tests::exact::{self, Exact, saturated};
 use galpix_tests::layouts::{SHADED565, TINY_DEPTH, TINY_PLANE, TINY_SHADED, TINY_SLIDE};
-use galpix_tests::lent::{Shape, cell_words, with_maps};
+use galpix_tests::memory::{Shape, cell_words, with_maps};
 use galpix_tests::packed;
 use galpix_tests::profiles::dynamic;
 use galpix_vectors::arrivals::{Arrival, arrivals};
@@ -15,7 +15,7 @@ use galpix_vectors::arrivals::{Arrival, arrivals};
 use crate::layers::engine::with_layers;
 use crate::layers::model::Kind;
 
-/// A budget with this component everywhere, 4 depth bins and a luminosity of 4.2 bits.
+/// Returns a budget with this component everywhere, 4 depth bins and a luminosity of 4.2 bits.
 fn bits(component: Component) -> Bits {
     let component = component.checked().unwrap();
     let mut bits = Bits::derive(Demand { extent: 4, recog: 1, prop: 4 }).unwrap();
@@ -72,7 +72,7 @@ fn check(layout: Layout, bits: Bits, across: &[Field], down: &[Field]) {
                     expected = (0..).zip(&before).map(|(source, words)| of.arrival(words, source)).collect();
                 }
                 let what = format!("{rounding:?}, frame {frame}");
-                // In raster order, and nobody is left out.
+                // In raster order, and none is left out.
                 let arrivals = arrivals(&front, rounding, frame);
                 assert_eq!(arrivals.len(), expected.len(), "{what}");
                 for ((arrival, (expected, _)), before) in arrivals.iter().zip(&expected).zip(&before) {
@@ -110,8 +110,8 @@ fn swept(
     }
 }
 
-/// Compares a stationary layer, which loses nobody: the words of each galpixel after a step, and the cells that it
-/// moved.
+/// Compares a stationary-source layer, which loses no galpixel: the words of each galpixel after a step, and the cells
+/// that it moved.
 fn kept_in_their_cells(format: Dynamic, of: &Expected<'_>, before: &[Vec<u32>], expected: &[(Arrival, [i64; 2])]) {
     let base = Kind { winners: false, edges: false, stationary: false };
     let mut nothing = vec![0; of.record.words()];
@@ -143,7 +143,7 @@ struct Expected<'r> {
 }
 
 impl Expected<'_> {
-    /// The arrival of a galpixel, and the cells that it moved.
+    /// Returns the arrival of a galpixel, and the cells that it moved.
     fn arrival(&self, before: &[u32], source: u32) -> (Arrival, [i64; 2]) {
         let Self { bits, record, shape, rounding, frame } = *self;
         let mut after = [0; galpix_core::record::MAX_WORDS];

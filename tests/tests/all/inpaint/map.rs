@@ -2,7 +2,7 @@
 
 use galpix_core::inpaint::{Gamma, Motion, PushPull};
 use galpix_core::{Class, FillMode, Inpainting, Layout, Settings, stages};
-use galpix_tests::lent::{Shape, cell_words, with_controller, with_rolling, words};
+use galpix_tests::memory::{Shape, cell_words, with_controller, with_rolling, words};
 use galpix_tests::profiles::{PAPER, dynamic};
 use galpix_tests::stage;
 
@@ -16,7 +16,7 @@ fn settings() -> Settings {
     }
 }
 
-/// Lends push-pull for maps of a size.
+/// Runs a closure with push-pull for maps of a size.
 fn with_push_pull<R>([width, height]: [u32; 2], motion: Motion, work: impl FnOnce(&mut PushPull<'_>) -> R) -> R {
     let mut memory = vec![u32::MAX; PushPull::words(width, height, motion)];
     work(&mut PushPull::new(width, height, motion, &mut memory).unwrap())
@@ -26,7 +26,7 @@ fn size(shape: Shape) -> [u32; 2] {
     [shape.columns(), shape.rows()]
 }
 
-/// The words of each frame of a scene with inpainting, and how many cells were filled.
+/// Returns the words of each frame of a scene with inpainting, and how many cells were filled.
 fn frames(
     stage: &stage::Stage,
     inpainting: Option<&Inpainting<'_>>,
@@ -149,7 +149,7 @@ fn push_pull_of_another_size_fills_what_lies_within_both() {
                     {
                         let cell = at as u32 % cells;
                         let [x, y] = [cell % stage.shape.columns(), cell / stage.shape.columns()];
-                        // A hole takes from the cells of level 1 beside its own.
+                        // A hole takes from the cells of level 1 next to its own.
                         assert!(x <= other[0] + 1 && y <= other[1] + 1, "{other:?}: {x}, {y}");
                     }
                 }

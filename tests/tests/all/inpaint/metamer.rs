@@ -2,7 +2,7 @@
 
 use galpix_core::inpaint::{Gamma, Metamer, MetamerWorkspace, Recipe};
 use galpix_core::{Class, Controller, Dynamic, Format, Inpainting, Layout, Settings, SetupError, stages};
-use galpix_tests::lent::{cell_words, with_controller, with_rolling, words};
+use galpix_tests::memory::{cell_words, with_controller, with_rolling, words};
 use galpix_tests::profiles::{PAPER, dynamic};
 use galpix_tests::stage;
 
@@ -16,7 +16,7 @@ fn named(name: &str) -> stage::Stage {
     stage::all().find(|stage| stage.scene.name() == name).unwrap()
 }
 
-/// Lends metamers for maps of a size.
+/// Runs a closure with metamers for maps of a size.
 fn with_metamer<R>([width, height]: [u32; 2], recipe: Recipe, work: impl FnOnce(&mut Metamer<'_>) -> R) -> R {
     let mut memory = vec![u32::MAX; Metamer::words(width, height, recipe.levels)];
     let mut workspace = MetamerWorkspace::new();
@@ -42,7 +42,7 @@ fn frame(
     (words(map), filled)
 }
 
-/// The words of each frame of a scene, and how many cells were filled.
+/// Returns the words of each frame of a scene, and how many cells were filled.
 fn frames(layout: Layout, name: &str, quads: bool, recipe: Recipe, count: u32) -> Vec<(Vec<u32>, u32)> {
     let stage = named(name);
     let format = dynamic(layout, PAPER);

@@ -23,7 +23,7 @@ struct Holed {
 }
 
 impl Holed {
-    /// The colours after the holes were filled, and how many were.
+    /// Returns the colours after the holes were filled, and how many were.
     fn filled(&self, inpainting: &Inpainting<'_>) -> (Vec<u32>, u32) {
         let [width, height] = self.size;
         let mut bits = vec![0u32; self.known.len().div_ceil(32)];
@@ -62,7 +62,7 @@ fn inpaintings() -> impl Strategy<Value = Inpainting<'static>> {
     (prop::sample::select(&Gamma::ALL[..]), threshold).prop_map(|(gamma, threshold)| of(gamma, threshold))
 }
 
-/// An inpainting that counts in a plain picture.
+/// Returns an inpainting that counts in a plain picture.
 fn of(gamma: Gamma, threshold: u32) -> Inpainting<'static> {
     Inpainting { gamma, threshold, ..Inpainting::classic() }
 }
@@ -180,7 +180,7 @@ fn one_known_cell_fills_any_picture() {
 
 #[test]
 fn foreground_stays_out_of_the_background() {
-    // A red foreground on the left, a hole beside it, a green background on the right.
+    // A red foreground on the left, a hole next to it, a green background on the right.
     let (width, height) = (32u32, 16u32);
     let kind = |cell: u32| match cell % width {
         0..10 => 0,
@@ -217,7 +217,7 @@ fn memory_is_what_the_documents_say() {
     assert!(table.iter().all(|line| documents.contains(line)), "docs/notes/inpainting.md needs\n{}", table.join("\n"));
 }
 
-/// A number with its digits in threes.
+/// Returns a number with its digits in threes.
 fn thousands(number: usize) -> String {
     let digits = number.to_string();
     let threes: Vec<&str> =

@@ -1,8 +1,8 @@
-//! The engine's layers with the memory that they are lent, beside the model of them.
+//! The engine's layers over buffers of the test, compared with their model.
 
 use galpix_core::layers::{Layer, Layers, Stationary, composite_words, displacement_word};
 use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, stages};
-use galpix_tests::lent::Shape;
+use galpix_tests::memory::Shape;
 
 use super::holes::Cell;
 use super::model::{Kind, planes};
@@ -15,11 +15,11 @@ struct Memory {
     maps: [Vec<u32>; 3],
     winners: Vec<u32>,
     edges: Vec<u32>,
-    seats: Vec<u32>,
+    composited: Vec<u32>,
     displacements: Vec<u32>,
 }
 
-/// Lends layers whose maps hold `contents`, the base first.
+/// Runs a closure with layers whose maps hold `contents`, the base first.
 pub fn with_layers<F: Format, R>(
     shape: Shape,
     format: F,
@@ -36,23 +36,23 @@ pub fn with_layers<F: Format, R>(
             maps: [planes(content), vec![STALE; words], vec![STALE; words]],
             winners: vec![STALE; if kind.winners { cells } else { 0 }],
             edges: vec![STALE; if kind.edges { stages::words(&grid) } else { 0 }],
-            seats: vec![STALE; composite_words(&grid)],
+            composited: vec![STALE; composite_words(&grid)],
             displacements: vec![displacement_word([0, 0]); cells],
         })
         .collect();
     let mut parts = memories.iter_mut().zip(contents).map(|(memory, (kind, _))| {
-        let Memory { maps, winners, edges, seats, displacements } = memory;
+        let Memory { maps, winners, edges, composited, displacements } = memory;
         let maps = maps.each_mut().map(|memory| Galpixmap::over(grid, format, memory).unwrap());
-        (kind, maps, Scratch { winners, edges }, seats, displacements)
+        (kind, maps, Scratch { winners, edges }, composited, displacements)
     });
     let (_, [front, back, _], scratch, ..) = parts.next().expect("a base");
     let base = Controller::new(front, back, scratch).unwrap();
     let mut hidden: Vec<_> = parts
-        .map(|(kind, [front, back, third], scratch, seats, displacements)| {
+        .map(|(kind, [front, back, third], scratch, composited, displacements)| {
             let layer = if kind.stationary {
-                Layer::stationary(Stationary { stored: front, displacements }, back, third, scratch.winners, seats)
+                Layer::stationary(Stationary { stored: front, displacements }, back, third, scratch.winners, composited)
             } else {
-                Layer::new(front, back, scratch, seats)
+                Layer::new(front, back, scratch, composited)
             };
             layer.unwrap()
         })

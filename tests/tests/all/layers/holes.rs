@@ -19,7 +19,7 @@ pub fn depth(record: &Record, cell: &Cell) -> i64 {
     packed::unsigned(record.depth(), cell)
 }
 
-/// The edge map of section 8 by cells.
+/// Returns the edge map of section 8 by cells.
 pub fn edges(record: &Record, cells: &[Cell], columns: usize, threshold: u32) -> Vec<bool> {
     let rows = cells.len() / columns;
     let threshold = i64::from(threshold.min(i32::MAX as u32));
@@ -180,12 +180,12 @@ impl Holes<'_> {
     }
 }
 
-/// The words of the edge map as the engine keeps them.
+/// Returns the words of the edge map as the engine keeps them.
 pub fn packed_edges(edges: &[bool]) -> Vec<u32> {
     edges.chunks(32).map(|bits| (0..).zip(bits).fold(0, |word, (bit, &set)| word | u32::from(set) << bit)).collect()
 }
 
-/// How many bits are set, where an edge map is made.
+/// Returns how many bits are set, where an edge map is made.
 pub fn count(edges: &[bool]) -> u32 {
     edges.iter().filter(|&&edge| edge).count() as u32
 }

@@ -11,7 +11,7 @@ use galpix_core::layers::{Layer, Layers, Stationary, composite_words};
 use galpix_core::{
     Bits, Class, Controller, Demand, Dynamic, Galpixel, Galpixmap, Grid, Layout, Margin, Scratch, Settings, stages,
 };
-use galpix_tests::lent::Mode;
+use galpix_tests::memory::Mode;
 use galpix_tests::profiles::{PAPER, dynamic};
 
 type Map<'p> = Galpixmap<'p, Dynamic>;
@@ -51,7 +51,7 @@ fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
         let [m0, m1, m2, m3, m4] = memory.as_mut_slice() else { unreachable!() };
         let map = |memory| Map::new(grid, format(), memory).expect("a map");
         let (mut winners, mut edges) = (vec![0; grid.cells() as usize], vec![0; stages::words(&grid)]);
-        let (mut seats, mut displacements) = (vec![0; composite_words(&grid)], vec![0; grid.cells() as usize]);
+        let (mut composited, mut displacements) = (vec![0; composite_words(&grid)], vec![0; grid.cells() as usize]);
         let scratch = Scratch { winners: &mut winners, edges: &mut edges };
         let base = Controller::new(map(m0), map(m1), scratch).expect("a base");
         let layer = if stationary {
@@ -60,10 +60,10 @@ fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
                 map(m3),
                 map(m4),
                 &mut [],
-                &mut seats,
+                &mut composited,
             )
         } else {
-            Layer::new(map(m2), map(m3), Scratch::default(), &mut seats)
+            Layer::new(map(m2), map(m3), Scratch::default(), &mut composited)
         };
         let mut hidden = [layer.expect("a layer")];
         let mut layers = Layers::new(base, &mut hidden).expect("layers");
@@ -98,7 +98,8 @@ fn a_wall_behind_a_ball_comes_back_from_its_own_layer() {
 #[test]
 fn memory_is_as_documented() {
     let format = dynamic(Layout::FULL, PAPER);
-    let mut rows = ["1 layer", "2 layers", "3 layers", "an anchored layer more"].map(|name| format!("| {name} |"));
+    let mut rows =
+        ["1 layer", "2 layers", "3 layers", "a stationary-source layer more"].map(|name| format!("| {name} |"));
     for (width, height) in [(128, 64), (320, 240), (1024, 1024)] {
         let mut starts = vec![0; Grid::rows(height, Margin::NONE)];
         let grid = Grid::new(width, height, Margin::NONE, &mut starts).expect("a grid");

@@ -3,13 +3,13 @@
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::stages::{NO_WINNER, snap, step_position};
 use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Record, Rounding, Settings, Tally};
-use galpix_tests::lent::{Shape, cell_words, with_maps};
+use galpix_tests::memory::{Shape, cell_words, with_maps};
 use galpix_tests::packed;
-use galpix_vectors::arrivals::{arrivals, settle};
+use galpix_vectors::arrivals::{arrivals, resolve};
 
 use super::holes::{Cell, EMPTY, Holes, class, count, depth, edges};
 
-/// Which scratch memories a layer is lent, and whether it is stationary.
+/// Which scratch buffers a layer gets, and whether it is stationary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Kind {
     pub winners: bool,
@@ -41,7 +41,7 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// What the engine counted in its last step, whose base counted `base`.
+    /// Returns what the engine counted in its last step, whose base counted `base`.
     pub fn of(layers: &Layers<'_, '_, Dynamic>, base: Tally) -> Self {
         let hidden = layers.hidden();
         let (tallies, shown) = (hidden.iter().map(|layer| *layer.tally()), hidden.iter().map(Layer::shown));
@@ -60,17 +60,17 @@ pub struct Model {
     pub before: Vec<Cell>,
 }
 
-/// All planes of a map.
+/// Returns all planes of a map.
 pub fn planes(cells: &[Cell]) -> Vec<u32> {
     (0..cells[0].len()).flat_map(|word| cells.iter().map(move |cell| cell[word])).collect()
 }
 
-/// The words of each cell of a map.
+/// Returns the words of each cell of a map.
 pub fn cells_of(map: &Galpixmap<'_, Dynamic>) -> Vec<Cell> {
     (0..map.grid().cells()).map(|cell| cell_words(map, cell)).collect()
 }
 
-/// `cells` of x and y of section 5.
+/// Returns `cells` of x and y of section 5.
 fn cells_moved(record: &Record, cell: &Cell, rounding: Rounding, frame: u32) -> [i64; 2] {
     [(0, record.offset_x()), (1, record.offset_y())].map(|(component, offset)| {
         let scale = &record.scales[component];
@@ -100,11 +100,11 @@ impl Model {
         *self.format.record()
     }
 
-    /// The arrivals of a map, resolved: the map, its winners and the counts.
+    /// Returns the arrivals of a map, resolved: the map, its winners and the counts.
     fn moved(&self, cells: &[Cell], rounding: Rounding) -> (Vec<Cell>, Vec<u32>, Tally) {
         let mut winners = vec![0; cells.len()];
         with_maps(self.shape, self.format, Some(&planes(cells)), |front, mut back| {
-            let tally = settle(arrivals(&front, rounding, self.frame), &mut back, &mut winners);
+            let tally = resolve(arrivals(&front, rounding, self.frame), &mut back, &mut winners);
             (cells_of(&back), winners, tally)
         })
     }
@@ -146,7 +146,8 @@ impl Model {
         tally
     }
 
-    /// The stored galpixels of a stationary layer one step later: each by itself, on a map where nothing else is.
+    /// Returns the stored galpixels of a stationary layer one step later: each by itself, on a map where nothing else
+    /// is.
     fn advance(&mut self, index: usize, rounding: Rounding) -> u32 {
         let record = self.record();
         let mut saturated = 0;
@@ -159,7 +160,7 @@ impl Model {
                 saturated += arrival.saturated;
             }
         });
-        // An arrival that left the map does not tell how far it went.
+        // How far an arrival went that left the map is unknown.
         for source in (0..own.stored.len()).filter(|&source| class(&record, &own.stored[source]) != EMPTY) {
             let moved = cells_moved(&record, &own.stored[source], rounding, self.frame);
             for (to, moved) in next.displacements[source].iter_mut().zip(moved) {
@@ -170,7 +171,7 @@ impl Model {
         saturated
     }
 
-    /// What is shown: the words of each cell and which layer they belong to.
+    /// Returns what is shown: the words of each cell and which layer they belong to.
     pub fn shown(&self) -> (Vec<Cell>, Vec<usize>) {
         let record = self.record();
         let layer = |cell: usize| {

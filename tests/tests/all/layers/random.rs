@@ -2,7 +2,7 @@
 
 use galpix_core::record::Field;
 use galpix_core::{Class, Record};
-use galpix_tests::lent::Shape;
+use galpix_tests::memory::Shape;
 use galpix_tests::{packed, random};
 use rand::rngs::SmallRng;
 use rand::{Rng, RngExt};
@@ -19,19 +19,19 @@ pub enum Filling {
     /// Blocks of a surface that drift apart, so that gaps between rows cross gaps between columns.
     Apart,
     /// Any words at all.
-    Rubbish,
+    Arbitrary,
 }
 
 impl Filling {
-    pub const ALL: [Self; 6] = [Self::Empty, Self::Sparse, Self::Dense, Self::Full, Self::Apart, Self::Rubbish];
+    pub const ALL: [Self; 6] = [Self::Empty, Self::Sparse, Self::Dense, Self::Full, Self::Apart, Self::Arbitrary];
 
-    /// One of them.
+    /// Returns one of them.
     pub fn any(generator: &mut SmallRng) -> Self {
         Self::ALL[random::below(generator, 6) as usize]
     }
 }
 
-/// A galpixel of some class.
+/// Returns a galpixel of some class.
 pub fn cell(generator: &mut SmallRng, record: &Record, class: Class) -> Cell {
     let mut words: Cell = (0..record.words()).map(|_| generator.next_u32()).collect();
     packed::set(record.class(), &mut words, class as i64);
@@ -69,14 +69,14 @@ fn apart(generator: &mut SmallRng, record: &Record, block: [usize; 2]) -> Cell {
     words
 }
 
-/// A map. One class in long runs, so that there are surfaces.
+/// Returns a map. One class in long runs, so that there are surfaces.
 pub fn map(generator: &mut SmallRng, record: &Record, filling: Filling, shape: Shape) -> Vec<Cell> {
     let (cells, columns) = (shape.cells() as usize, shape.columns() as usize);
     let share = match filling {
         Filling::Empty => 0,
         Filling::Sparse => 12,
         Filling::Dense => 85,
-        Filling::Full | Filling::Apart | Filling::Rubbish => 100,
+        Filling::Full | Filling::Apart | Filling::Arbitrary => 100,
     };
     let together = generator.random_ratio(1, 2).then(|| cell(generator, record, Class::Galpixel));
     (0..cells)
@@ -89,7 +89,7 @@ pub fn map(generator: &mut SmallRng, record: &Record, filling: Filling, shape: S
                 1 => Class::JustUnobscured,
                 _ => Class::Galpixel,
             };
-            if filling == Filling::Rubbish {
+            if filling == Filling::Arbitrary {
                 return (0..record.words()).map(|_| generator.next_u32()).collect();
             }
             if random::below(generator, 100) >= share {

@@ -3,7 +3,7 @@
 use galpix_core::inpaint::{Gamma, Motion, PushPull};
 use galpix_core::layers::{Layers, displacement_word};
 use galpix_core::{Controller, Dynamic, FillMode, Format, Inpainting, Layout, Rounding, Scratch, Settings};
-use galpix_tests::lent::{Mode, Shape, Trace, cell_words, with_controller, with_maps, words};
+use galpix_tests::memory::{Mode, Shape, Trace, cell_words, with_controller, with_maps, words};
 use galpix_tests::profiles::{ODD, PANEL, PAPER, SCENE, SLIDE, UNEVEN, dynamic};
 use galpix_tests::random::{below, generator};
 use rand::RngExt;
@@ -225,7 +225,7 @@ fn layers_are_those_of_the_model() {
         let format = dynamic(layout, bits);
         let mut seen = Seen::default();
         for seed in 0..36 {
-            // Two of one layer more, so that shapes, fill modes and modes meet in other ways.
+            // Two of one layer more, so that shapes, fill modes and modes are combined differently.
             for (hidden, seed) in [(0, seed), (1, seed), (1, seed + 1), (2, seed + 2), (3, seed + 3)] {
                 same_as_the_model(format, hidden, seed, &mut seen);
             }

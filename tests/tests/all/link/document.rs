@@ -1,4 +1,4 @@
-//! `docs/link.md` says what the product does.
+//! `docs/link.md` describes what the product does.
 
 use std::path::Path;
 
@@ -12,14 +12,14 @@ fn document() -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/link.md")).unwrap()
 }
 
-/// The cells of the table row that starts with these.
+/// Returns the cells of the table row that starts with these.
 fn row<'d>(document: &'d str, cells: &[&str]) -> Vec<&'d str> {
     let start = format!("| {} |", cells.join(" | "));
     let line = document.lines().find(|line| line.starts_with(&start)).unwrap_or_else(|| panic!("no row {start}"));
     line[start.len()..].split('|').map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
 
-/// The bytes of the example, `number` from 0 on.
+/// Returns the bytes of the example, `number` from 0 on.
 fn example(document: &str, number: usize) -> Vec<u8> {
     let block = document.split("```hex\n").nth(number + 1).and_then(|rest| rest.split("```").next()).unwrap();
     block.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect()
@@ -84,7 +84,7 @@ fn the_tables_are_those_of_the_product() {
     for number in [MAX_PAYLOAD, MAX_ENCODED, MAX_WORD_BYTES] {
         assert!(document.contains(&format!("{number} bytes")), "{number}");
     }
-    // Beside the payload there are the checksum, one byte of COBS and the 0.
+    // The payload is followed by the checksum, one byte of COBS and the 0.
     let status = encoded(&Frame::Status(Status::default())).len() - 6;
     assert!(document.contains(&format!("{status} bytes: Status")), "{status}");
 }

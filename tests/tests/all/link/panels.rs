@@ -29,7 +29,7 @@ fn galpixels_go_into_the_map_of_their_panel_only() {
     assert_eq!((stamped.age(2), stamped.age(u32::MAX)), (3, 0));
 }
 
-/// The bytes under a fingerprint, once more.
+/// Returns the bytes under a fingerprint, once more.
 fn hashed<P: Panel>(channels: &[u8]) -> Vec<u8> {
     let record = P::RECORD;
     let mut bytes = vec![panel::VERSION];

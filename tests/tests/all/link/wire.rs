@@ -11,7 +11,7 @@ pub fn crc32(bytes: &[u8]) -> u32 {
     })
 }
 
-/// A payload as the line carries it: checksum, COBS, and the 0.
+/// Returns a payload as the line carries it: checksum, COBS, and the 0.
 pub fn line(payload: &[u8]) -> Vec<u8> {
     let mut bytes = payload.to_vec();
     bytes.extend(crc32(payload).to_le_bytes());
@@ -31,7 +31,7 @@ pub fn line(payload: &[u8]) -> Vec<u8> {
     line
 }
 
-/// A frame as the product encodes it.
+/// Returns a frame as the product encodes it.
 pub fn encoded(frame: &Frame<'_>) -> Vec<u8> {
     frame.encode(&mut [0; MAX_ENCODED]).unwrap().to_vec()
 }
@@ -40,7 +40,7 @@ pub fn encoded(frame: &Frame<'_>) -> Vec<u8> {
 /// one, so that frames are the same if their bytes are.
 pub type Received = Result<Vec<u8>, Rejected>;
 
-/// What a receiver makes of these bytes.
+/// Returns what a receiver makes of these bytes.
 pub fn receive(bytes: &[u8]) -> Vec<Received> {
     let mut decoder = Decoder::new();
     let mut received = Vec::new();

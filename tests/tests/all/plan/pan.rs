@@ -1,4 +1,4 @@
-/// 81 bits in 3 words a galpixel.
+/// 81 bits in 3 words per galpixel.
 pub enum PlannedPan {}
 impl Profile for PlannedPan {
     const LAYOUT: Layout = Layout { velocity: true, acceleration: true, ..Layout::STILL };

@@ -11,7 +11,7 @@ use galpix_link::frame::{Frame, MAX_ENCODED, NO_SCENE, Status};
 use galpix_link::panel::{Description, Panel};
 use galpix_sim::send::Address;
 
-/// The memory of a panel's map with these galpixels, row by row; without any it is as after a start.
+/// Returns the memory of a panel's map with these galpixels, row by row; without any it is as after a start.
 pub fn memory<P: Panel>(galpixels: &[Galpixel]) -> Vec<u32> {
     let height = u32::from(P::HEIGHT);
     let mut starts = vec![0; Grid::rows(height, Margin::NONE)];
@@ -49,7 +49,7 @@ impl Device {
         Self { panel, memory: empty.clone(), empty, status, stamps: Vec::new(), pace: 3 }
     }
 
-    /// Does what a frame says, and returns the answer.
+    /// Obeys a frame, and returns the answer.
     fn take(&mut self, frame: &Frame<'_>) -> Option<Frame<'static>> {
         match frame {
             Frame::Hello => {
@@ -94,7 +94,7 @@ impl Device {
     }
 
     /// Lives on a line until the other end closes it or `stop` is set. `noise` may change the bytes of a frame, without
-    /// its 0, before they arrive; it is told which frame it is.
+    /// its 0, before they arrive; it gets the number of the frame.
     pub fn live(&mut self, mut line: impl Read + Write, stop: &AtomicBool, mut noise: impl FnMut(usize, &mut Vec<u8>)) {
         let (mut decoder, mut frame, mut count) = (Decoder::new(), Vec::new(), 0);
         let mut bytes = [0; 1000];
@@ -131,14 +131,14 @@ impl Device {
     }
 }
 
-/// A port for a device, and its address.
+/// Returns a port for a device, and its address.
 pub fn port() -> (TcpListener, Address) {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let address = Address::Tcp(listener.local_addr().unwrap().to_string());
     (listener, address)
 }
 
-/// The connection that a host makes.
+/// Returns the connection that a host makes.
 pub fn connection(listener: &TcpListener) -> TcpStream {
     let (stream, _) = listener.accept().unwrap();
     stream.set_read_timeout(Some(Duration::from_millis(50))).unwrap();

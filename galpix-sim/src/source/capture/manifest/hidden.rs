@@ -53,7 +53,7 @@ fn separation() -> f64 {
 }
 
 impl Hidden {
-    /// Checks the values; errors are (what, mend).
+    /// Checks the values; errors are (what, hint).
     pub fn check(&self, manifest: &Manifest) -> Result<(), (String, &'static str)> {
         let update = &manifest.update;
         match self {
@@ -66,8 +66,8 @@ impl Hidden {
                     ));
                 }
                 if matches!(layer.depth, Depth::Speed(_)) {
-                    let mend = "give both layers depths of kind \"z\" or \"disparity\"";
-                    return Err(("has a hidden layer and no depth that says what is behind".into(), mend));
+                    let hint = "give both layers depths of kind \"z\" or \"disparity\"";
+                    return Err(("has a hidden layer and no depth that says what is behind".into(), hint));
                 }
                 match &layer.motion {
                     Some(motion) => motion.check("hidden.motion"),
@@ -79,8 +79,8 @@ impl Hidden {
             }
             Self::Views(views) => {
                 if !matches!((&update.motion, &update.depth), (Motion::Camera(_), Depth::Z(_))) {
-                    let mend = "give update.motion of kind \"camera\" and update.depth of kind \"z\"";
-                    return Err(("has hidden.views of a scene whose camera is unknown".into(), mend));
+                    let hint = "give update.motion of kind \"camera\" and update.depth of kind \"z\"";
+                    return Err(("has hidden.views of a scene whose camera is unknown".into(), hint));
                 }
                 if views.views.is_empty() || views.views.len() > MAX_VIEWS {
                     let what = format!("has {} hidden.views, not 1 to {MAX_VIEWS}", views.views.len());

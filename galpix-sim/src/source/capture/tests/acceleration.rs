@@ -10,7 +10,7 @@ fn flo(uv: impl Fn(usize, usize) -> [f32; 2]) -> Vec<u8> {
     encode::pieh(4, 3, &cells(uv).concat())
 }
 
-/// Where a cell is after `t` frames.
+/// Returns where a cell is after `t` frames.
 fn place(sample: &crate::update::Sample, t: f64) -> [f64; 2] {
     [0, 1].map(|c| sample.velocity[c] * t + sample.acceleration[c] * t * t / 2.0)
 }
@@ -41,7 +41,7 @@ fn both_ends_of_two_chained_flows_are_reached_exactly() {
 }
 
 #[test]
-fn beside_unknown_flow_the_velocity_stays_constant() {
+fn next_to_unknown_flow_the_velocity_stays_constant() {
     let folder = Folder::new()
         .with("a.flo", flo(|_, _| [0.5, 0.0]))
         .with("b.flo", flo(|x, y| if (x, y) == (1, 1) { [f32::NAN; 2] } else { [2.5, 0.0] }));
@@ -52,7 +52,7 @@ fn beside_unknown_flow_the_velocity_stays_constant() {
         assert_eq!((sample.velocity[0], sample.acceleration[0]), (0.5, 0.0));
     }
     assert_eq!(known(&capture, 0, 0).acceleration[0], 2.0);
-    // Two cells beside the unknown one, three that leave the picture.
+    // Two cells next to the unknown one, three that leave the picture.
     assert_eq!(capture.census.unknown_acceleration, 5);
 }
 

@@ -30,7 +30,7 @@ fn opengl([right, down, forward, yaw]: View) -> [[f64; 4]; 3] {
     [[c, 0.0, -s, right], [0.0, 1.0, 0.0, -down], [s, 0.0, c, -forward]]
 }
 
-/// The files of a path in `format`, and the name for `poses`.
+/// Returns the files of a path in `format`, and the name for `poses`.
 fn write(folder: &Folder, format: &str, path: &[View]) -> &'static str {
     let quaternion = |yaw: f64| ((yaw / 2.0).sin(), (yaw / 2.0).cos());
     let (name, content) = match format {

@@ -9,7 +9,7 @@ use super::super::{Capture, ImportOptions, load};
 use super::folder::near;
 use crate::update::Known;
 
-/// The folder of the test data, if it is there.
+/// Returns the folder of the test data, if it is there.
 fn data() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     if folder.is_dir() {
@@ -30,7 +30,8 @@ fn read_text(text: &str) -> Capture {
     read(folder.path())
 }
 
-/// The capture in `folder` without its truths, its manifest changed from the first text of each pair to the second.
+/// Returns the capture in `folder` without its truths, its manifest changed from the first text of each pair to the
+/// second.
 fn changed(folder: &Path, changes: &[(&str, &str)]) -> Capture {
     let mut text = std::fs::read_to_string(folder.join("capture.toml")).unwrap();
     for (from, to) in changes {
@@ -87,7 +88,7 @@ fn the_capture_of_this_repository_loads() {
     assert_eq!(capture.census.known, capture.update.samples.len());
 }
 
-/// The motion of Blender's pass as it stands in the file, before mixed vectors are replaced.
+/// Returns the motion of Blender's pass as it stands in the file, before mixed vectors are replaced.
 fn pass(file: &Path, size: Size) -> Vec<Track> {
     let source = Source::open(file).unwrap();
     let planes = Planes::read(&source).unwrap();

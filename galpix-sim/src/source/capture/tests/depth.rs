@@ -108,7 +108,7 @@ fn far_cells_are_background() {
 }
 
 #[test]
-fn the_background_stays_still_beside_a_second_flow() {
+fn the_background_stays_still_with_a_second_flow() {
     let mut raw = [2.0; 12];
     raw[0] = 1e10;
     let next: Vec<f32> = cells(|_, _| [5.0, 5.0]).concat();

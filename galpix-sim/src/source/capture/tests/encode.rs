@@ -6,12 +6,12 @@ use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, Layer, LayerAttr
 use half::f16;
 use png::{BitDepth, ColorType};
 
-/// A PNG of 8-bit values.
+/// Returns a PNG of 8-bit values.
 pub fn png8(width: u32, height: u32, colour: ColorType, values: &[u8]) -> Vec<u8> {
     png(width, height, colour, BitDepth::Eight, values)
 }
 
-/// A PNG of 16-bit values.
+/// Returns a PNG of 16-bit values.
 pub fn png16(width: u32, height: u32, colour: ColorType, values: &[u16]) -> Vec<u8> {
     let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_be_bytes()).collect();
     png(width, height, colour, BitDepth::Sixteen, &bytes)
@@ -26,11 +26,11 @@ fn png(width: u32, height: u32, colour: ColorType, depth: BitDepth, bytes: &[u8]
     file
 }
 
-/// A JPEG of the best quality.
+/// Returns a JPEG of the best quality.
 pub fn jpeg(width: u32, height: u32, rgb: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
-    let mut encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, 100);
-    encoder.encode(rgb, width, height, image::ExtendedColorType::Rgb8).unwrap();
+    let (width, height) = (width.try_into().unwrap(), height.try_into().unwrap());
+    jpeg_encoder::Encoder::new(&mut file, 100).encode(rgb, width, height, jpeg_encoder::ColorType::Rgb).unwrap();
     file
 }
 
@@ -44,7 +44,7 @@ pub enum Precision {
 /// One name and its values.
 pub type Channel<'a> = (&'a str, Vec<f32>);
 
-/// The channels with their names borrowed.
+/// Returns the channels with their names borrowed.
 pub fn borrowed(list: &[(String, Vec<f32>)]) -> Vec<Channel<'_>> {
     list.iter().map(|(name, values)| (name.as_str(), values.clone())).collect()
 }
@@ -60,14 +60,14 @@ fn channels(channels: &[Channel], precision: Precision) -> AnyChannels<FlatSampl
     AnyChannels::sort(channels.iter().map(channel).collect())
 }
 
-/// An EXR with one part.
+/// Returns an EXR with one part.
 pub fn exr(width: usize, height: usize, precision: Precision, list: &[Channel]) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     Image::from_channels((width, height), channels(list, precision)).write().to_buffered(&mut file).unwrap();
     file.into_inner()
 }
 
-/// An EXR with several named parts.
+/// Returns an EXR with several named parts.
 pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) -> Vec<u8> {
     let part = |(name, list): &(&str, Vec<Channel>)| {
         let attributes = LayerAttributes::named(*name);
@@ -81,7 +81,7 @@ pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) ->
     file.into_inner()
 }
 
-/// The layout of `.flo` and `.dpt`.
+/// Returns the layout of `.flo` and `.dpt`.
 pub fn pieh(width: i32, height: i32, values: &[f32]) -> Vec<u8> {
     let mut file = 202_021.25_f32.to_le_bytes().to_vec();
     file.extend([width, height].iter().flat_map(|side| side.to_le_bytes()));
@@ -89,7 +89,7 @@ pub fn pieh(width: i32, height: i32, values: &[f32]) -> Vec<u8> {
     file
 }
 
-/// A `.npy` of version 1 or, above 1, with the longer header.
+/// Returns a `.npy` of version 1 or, above 1, with the longer header.
 pub fn npy(version: u8, descr: &str, fortran: bool, shape: &str, body: &[u8]) -> Vec<u8> {
     let fortran = if fortran { "True" } else { "False" };
     let mut header = format!("{{'descr': '{descr}', 'fortran_order': {fortran}, 'shape': {shape}, }}");
@@ -109,13 +109,13 @@ pub fn npy(version: u8, descr: &str, fortran: bool, shape: &str, body: &[u8]) ->
     file
 }
 
-/// A little-endian float32 `.npy`.
+/// Returns a little-endian float32 `.npy`.
 pub fn npy_f4(shape: &str, values: &[f32]) -> Vec<u8> {
     let body: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
     npy(1, "<f4", false, shape, &body)
 }
 
-/// A PFM from rows given from top to bottom, `width * bands` values each.
+/// Returns a PFM from rows given from top to bottom, `width * bands` values each.
 pub fn pfm(width: usize, height: usize, bands: usize, little: bool, values: &[f32]) -> Vec<u8> {
     let (tag, scale) = (if bands == 3 { "PF" } else { "Pf" }, if little { "-1.0" } else { "1.0" });
     let mut file = format!("{tag}\n{width} {height}\n{scale}\n").into_bytes();

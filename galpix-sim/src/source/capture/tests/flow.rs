@@ -8,7 +8,7 @@ use super::folder::{Folder, H, SIZE, W, cells, check_refusal, empty, known, near
 
 const SPEED: &str = "{ kind = \"speed\" }";
 
-/// A displacement that KITTI's steps of 1/64 pixel and half floats hold exactly.
+/// Returns a displacement that KITTI's steps of 1/64 pixel and half floats hold exactly.
 fn uv(x: usize, y: usize) -> [f32; 2] {
     [x as f32 - 1.5, 0.25 * y as f32 - 2.0]
 }

@@ -15,17 +15,17 @@ pub const SIZE: Size = Size { width: W, height: H };
 /// A folder with `color.png` (4x3, each pixel another colour) in it.
 pub struct Folder(tempfile::TempDir);
 
-/// The colour of pixel (x, y) of `color.png`.
+/// Returns the colour of pixel (x, y) of `color.png`.
 pub fn colour(x: usize, y: usize) -> [u8; 3] {
     [40 * x as u8, 60 * y as u8, 200]
 }
 
-/// A value for each cell from its column and row.
+/// Returns a value for each cell from its column and row.
 pub fn cells<T>(value: impl Fn(usize, usize) -> T) -> Vec<T> {
     SIZE.positions().map(|(x, y)| value(x, y)).collect()
 }
 
-/// Bytes as if they had been read from `name`.
+/// Returns the bytes as if they had been read from `name`.
 pub fn source(name: &str, bytes: impl Into<Vec<u8>>) -> Source {
     Source { path: PathBuf::from(name), bytes: bytes.into() }
 }
@@ -66,7 +66,7 @@ impl Folder {
         self.load(&manifest(depth, motion, more))
     }
 
-    /// The refusal of this manifest, checked: one line that names `file`, says `what` and gives a mend.
+    /// Returns the refusal of this manifest, checked: one line that names `file`, says `what` and gives a hint.
     pub fn refused(&self, manifest: &str, file: &str, what: &str) -> String {
         match self.load(manifest) {
             Ok(_) => panic!("accepted, although {file} {what}:\n{manifest}"),
@@ -75,30 +75,30 @@ impl Folder {
     }
 }
 
-/// A manifest over eight frames.
+/// Returns a manifest over eight frames.
 pub fn manifest(depth: &str, motion: &str, more: &str) -> String {
     format!("frames = 8\n[update]\ncolor = \"color.png\"\ndepth = {depth}\nmotion = {motion}\n{more}\n")
 }
 
-/// Checks that `error` is one line `file: what; mend`, and returns it.
+/// Checks that `error` is one line `file: what; hint`, and returns it.
 pub fn check_refusal(error: &CaptureError, file: &str, what: &str) -> String {
     let text = error.to_string();
     assert!(!text.contains(|c: char| c.is_control()), "more than one line: {text:?}");
     assert!(text.contains(file), "does not name {file}: {text}");
     assert!(text.contains(what), "does not say {what:?}: {text}");
-    assert!(!error.what.is_empty() && !error.mend.is_empty(), "no mend: {text}");
-    assert!(text.ends_with(&format!("; {}", error.mend)), "the mend is not at the end: {text}");
+    assert!(!error.what.is_empty() && !error.hint.is_empty(), "no hint: {text}");
+    assert!(text.ends_with(&format!("; {}", error.hint)), "the hint is not at the end: {text}");
     text
 }
 
-/// The sample of column `x`, row `y`, which must be known.
+/// Returns the sample of column `x`, row `y`, which must be known.
 pub fn known(capture: &Capture, x: usize, y: usize) -> Sample {
     let sample = capture.update.samples[y * capture.update.width + x];
     assert_eq!(sample.known, Known::Motion, "cell ({x}, {y}) is empty");
     sample
 }
 
-/// Whether the cell in column `x`, row `y` starts empty.
+/// Returns whether the cell in column `x`, row `y` starts empty.
 pub fn empty(capture: &Capture, x: usize, y: usize) -> bool {
     capture.update.samples[y * capture.update.width + x].known == Known::ColourOnly
 }

@@ -13,8 +13,8 @@ fn flow(u: f32, v: f32) -> Vec<u8> {
     encode::pieh(4, 3, &cells(|_, _| [u, v]).concat())
 }
 
-/// A first layer at distance 2 that moves by (1, 0), and files of a second one: distances 2.5, 3, NaN and 0 in the
-/// columns, all moving by (-2, 0.5).
+/// Returns a first layer at distance 2 that moves by (1, 0), and files of a second one: distances 2.5, 3, NaN and 0 in
+/// the columns, all moving by (-2, 0.5).
 fn folder() -> Folder {
     let second = cells(|x, _| [2.5, 3.0, f32::NAN, 0.0][x]);
     let rgb: Vec<u8> = cells(|x, y| [200, 30 * x as u8, 50 * y as u8]).concat();

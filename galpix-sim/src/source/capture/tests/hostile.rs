@@ -43,7 +43,7 @@ fn flow(source: &Source) -> Result<(), CaptureError> {
     raster::flow(source, SIZE).map(|flow| assert_eq!(flow.len(), W * H))
 }
 
-/// One small file of each format, and who reads it.
+/// Returns one small file of each format, and who reads it.
 fn files() -> Vec<(&'static str, Vec<u8>, Reader)> {
     let ramp = cells(|x, y| x as f32 + y as f32 + 1.0);
     let doubled: Vec<f32> = ramp.iter().flat_map(|&v| [v, -v]).collect();
@@ -79,7 +79,7 @@ fn files() -> Vec<(&'static str, Vec<u8>, Reader)> {
     ]
 }
 
-/// Runs `reader`, and tells which file made it panic.
+/// Runs `reader`, and reports which file made it panic.
 fn run(name: &str, bytes: Vec<u8>, reader: Reader, about: &str) -> Result<(), CaptureError> {
     let source = source(name, bytes);
     catch_unwind(AssertUnwindSafe(|| reader(&source)))
@@ -116,7 +116,8 @@ impl Random {
         (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 33) as usize % bound
     }
 
-    /// `bytes` with one to four of them replaced, sometimes by an extreme one, sometimes one inserted or removed.
+    /// Returns `bytes` with one to four of them replaced, sometimes by an extreme one, sometimes one inserted or
+    /// removed.
     fn damage(&mut self, bytes: &[u8]) -> Vec<u8> {
         let mut bytes = bytes.to_vec();
         for _ in 0..=self.below(4) {
@@ -206,13 +207,13 @@ fn damaged_texts_never_panic() {
     }
 }
 
-/// `bytes` with `new` at `at`.
+/// Returns `bytes` with `new` at `at`.
 fn patched(mut bytes: Vec<u8>, at: usize, new: &[u8]) -> Vec<u8> {
     bytes[at..at + new.len()].copy_from_slice(new);
     bytes
 }
 
-/// A PNG whose header is sound and says `side` x `side`.
+/// Returns a PNG whose header is sound and says `side` x `side`.
 fn png_of(side: u32) -> Vec<u8> {
     let sides = [side.to_be_bytes(), side.to_be_bytes()].concat();
     let mut file = patched(encode::png8(4, 3, ColorType::Grayscale, &[0; 12]), 16, &sides);

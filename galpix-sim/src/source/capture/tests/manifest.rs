@@ -1,4 +1,4 @@
-//! What a manifest may not say, and files that are not what it says.
+//! Manifests that are refused, and files that do not agree with theirs.
 
 use super::super::{ImportOptions, load};
 use super::encode;
@@ -38,9 +38,9 @@ fn names_and_texts() {
 }
 
 #[test]
-fn every_bad_manifest_is_refused_with_a_mend() {
+fn every_bad_manifest_is_refused_with_a_hint() {
     let folder = folder();
-    // (what stands there, what stands there instead, what the refusal says)
+    // (text of the manifest, its replacement, text of the refusal)
     let changes = [
         // Unknown keys at every level.
         ("frames = 8", "frames = 8\nframe = 8", "unknown key `frame`"),

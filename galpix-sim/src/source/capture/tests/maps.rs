@@ -1,4 +1,4 @@
-//! Maps of one number a pixel, read back as they were written.
+//! Maps of one number per pixel, read back as they were written.
 
 use half::f16;
 use png::ColorType;

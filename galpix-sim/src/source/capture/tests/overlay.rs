@@ -14,7 +14,7 @@ fn folder() -> Folder {
     Folder::new().with("f.flo", encode::pieh(4, 3, &[0.0; 24]))
 }
 
-/// Pixels of `[1, x, y]` with these alphas.
+/// Returns the pixels of `[1, x, y]` with these alphas.
 fn rgba(alpha: impl Fn(usize, usize) -> u8) -> Vec<u8> {
     let pixels = cells(|x, y| [1, x as u8, y as u8, alpha(x, y)]).concat();
     encode::png8(W as u32, H as u32, ColorType::Rgba, &pixels)

@@ -5,7 +5,7 @@ use super::folder::{Folder, H, W, cells, empty, known, near};
 
 const DEPTH: &str = "{ kind = \"z\", file = \"z.npy\", scale = 0.5 }";
 
-/// A folder with raw depth 4 everywhere (2 after the scale) and `p.exr`.
+/// Returns a folder with raw depth 4 everywhere (2 after the scale) and `p.exr`.
 fn folder(precision: Precision, list: &[Channel]) -> Folder {
     Folder::new().with("z.npy", encode::npy_f4("(3, 4)", &[4.0; 12])).with("p.exr", encode::exr(W, H, precision, list))
 }

@@ -25,7 +25,7 @@ fn picture(
     }
 }
 
-/// A galpixel whose colour and depth tell its cell.
+/// A galpixel whose colour and depth identify its cell.
 fn moving(x: u32, y: u32, velocity: [f64; 2], acceleration: [f64; 2]) -> Galpixel {
     let number = I32F32::saturating_from_num::<f64>;
     let zero = I32F32::ZERO;
@@ -38,7 +38,7 @@ fn moving(x: u32, y: u32, velocity: [f64; 2], acceleration: [f64; 2]) -> Galpixe
     }
 }
 
-/// The largest velocity of the budget, in cells a frame.
+/// The largest velocity of the budget, in cells per frame.
 fn fastest(setting: &Setting) -> f64 {
     0.5f64.powi(setting.bits.x.velocity_frac as i32) * setting.ranges(0).velocity_top as f64
 }
@@ -86,7 +86,7 @@ pub fn every_field(setting: &Setting) -> Vec<Picture> {
     vec![Picture { layout: Layout::SHADED, ..picture("3^8 combinations", [81, 81], setting.demand.prop, galpixel) }]
 }
 
-/// A name, which cells go one way, and how fast they go.
+/// A name, which cells move in one direction, and their speed.
 type Board = (&'static str, fn(u32, u32) -> bool, [f64; 2]);
 
 /// Velocities of one and a half cells.
@@ -165,8 +165,8 @@ pub fn sizes(setting: &Setting) -> Vec<Picture> {
     sizes.map(|size| picture(format!("{} x {}", size[0], size[1]), size, setting.demand.prop, mixed)).into()
 }
 
-/// Display cells and wings alike move.
-pub fn wings(setting: &Setting) -> Vec<Picture> {
+/// Display cells and margin alike move.
+pub fn margins(setting: &Setting) -> Vec<Picture> {
     let of = |margin: Margin| {
         let Margin { left, right, top, bottom } = margin;
         let name = format!("{left}, {right}, {top}, {bottom} around 9 x 7");

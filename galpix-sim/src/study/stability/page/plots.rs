@@ -12,7 +12,7 @@ use crate::output::html::text::Text;
 pub fn plots(case: &CaseReport, shown: &RoundingReport) -> Markup {
     html! {
         div.plots {
-            @if let Some(path) = shown.told() { (by_cause(case, path)) (beside_floats(case, path)) (by_rounding(case)) }
+            @if let Some(path) = shown.reported() { (by_cause(case, path)) (floats_compared(case, path)) (by_rounding(case)) }
             @if !shown.pictures.is_empty() { (tallies(case, shown)) }
         }
     }
@@ -40,13 +40,13 @@ fn many_updates(path: &PathReport) -> bool {
     path.series.windows(2).filter(|rows| rows[1].since_update <= rows[0].since_update).count() > MOST_UPDATES
 }
 
-/// A remark with a word on what is left out.
+/// Returns a remark with a word on what is left out.
 fn remark(text: &str, path: &PathReport) -> String {
     let left_out = if many_updates(path) { " A point an update: the largest until the next." } else { "" };
     format!("{text}{left_out}")
 }
 
-/// What quantisation and drift together may be. Where the certificate ends for good, so does its line.
+/// Returns what quantisation and drift together may be. Where the certificate ends for good, so does its line.
 fn bounds(path: &PathReport) -> Vec<Line> {
     let line = |name: &str, ink: Ink, stroke: Stroke, column: fn(&SeriesRow) -> bool| {
         line(name, ink, stroke, path, |row| column(row).then_some(row.bound_px))
@@ -65,8 +65,8 @@ fn bounds(path: &PathReport) -> Vec<Line> {
     lines
 }
 
-/// A line that never leaves 0 says nothing on a logarithmic axis.
-fn says_something(line: &Line) -> bool {
+/// Returns whether a line can be drawn on a logarithmic axis: one that never leaves 0 cannot.
+fn is_drawable(line: &Line) -> bool {
     line.points.iter().any(|&(_, value)| value.is_some_and(|value| value > 0.0))
 }
 
@@ -82,7 +82,7 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> Markup {
         share("quantisation", Ink::Known, |row| row.quantisation_px),
         share("drift", Ink::Galpix, |row| row.drift_px),
     ]);
-    lines.retain(says_something);
+    lines.retain(is_drawable);
     figure(
         case,
         ["Error by cause", "px"],
@@ -92,7 +92,7 @@ fn by_cause(case: &CaseReport, path: &PathReport) -> Markup {
     )
 }
 
-fn beside_floats(case: &CaseReport, path: &PathReport) -> Markup {
+fn floats_compared(case: &CaseReport, path: &PathReport) -> Markup {
     let mut lines = bounds(path);
     lines.extend([
         line("f64", Ink::Collided, Stroke::Solid, path, |row| Some(row.f64_px.abs())),
@@ -101,16 +101,16 @@ fn beside_floats(case: &CaseReport, path: &PathReport) -> Markup {
             Some((row.quantisation_px + row.drift_px + row.saturation_px).abs())
         }),
     ]);
-    lines.retain(says_something);
+    lines.retain(is_drawable);
     let mut text =
         "From the exact second-order path of the exact values. The engine has what fits into its fields.".to_owned();
     if !lines.iter().any(|line| line.name.starts_with('f')) {
         text += " Floats are exact here.";
     }
-    figure(case, ["The engine beside floats", "px"], &remark(&text, path), lines, true)
+    figure(case, ["The engine and floats", "px"], &remark(&text, path), lines, true)
 }
 
-/// The largest drift so far with each rounding.
+/// Returns the largest drift so far with each rounding.
 fn by_rounding(case: &CaseReport) -> Markup {
     let inks = [Ink::Hold, Ink::Collided, Ink::Galpix, Ink::Filled];
     let lines = case.roundings.iter().zip(inks).map(|(one, ink)| Line {
@@ -120,13 +120,13 @@ fn by_rounding(case: &CaseReport) -> Markup {
         points: (0..).zip(one.drift_up_to_px.iter().map(|&drift| Some(drift))).collect(),
     });
     let mut lines: Vec<Line> = lines.collect();
-    if !lines.iter().any(says_something) {
+    if !lines.iter().any(is_drawable) {
         lines.clear();
     }
     figure(case, ["Drift with each rounding", "px"], "The largest of any path up to this frame.", lines, false)
 }
 
-/// All pictures of a case together.
+/// Returns all pictures of a case together.
 fn tallies(case: &CaseReport, shown: &RoundingReport) -> Markup {
     let frames = shown.pictures.iter().map(|picture| picture.tallies.len()).max().unwrap_or(0);
     let sum = |frame: usize, column: usize| {
@@ -145,7 +145,7 @@ fn tallies(case: &CaseReport, shown: &RoundingReport) -> Markup {
         line("holes", Ink::Holes, Stroke::Solid, 3),
         line("settled", Ink::Galpix, Stroke::Solid, 0),
     ];
-    figure(case, ["Tallies", "cells"], "All pictures of this case together, with the richest rung.", lines, false)
+    figure(case, ["Tallies", "cells"], "All pictures of this case together, with the richest fill mode.", lines, false)
 }
 
 fn figure(case: &CaseReport, [title, unit]: [&str; 2], remark: &str, lines: Vec<Line>, log: bool) -> Markup {

@@ -23,7 +23,7 @@ pub struct Shares {
     pub total_px: f64,
     /// Quantisation and drift together, where no field was clamped.
     pub arithmetic_px: f64,
-    /// What the law says of these two in the last frame before an update.
+    /// The law for these two in the last frame before an update.
     pub bound_px: f64,
     /// The largest part of its bound that is reached in any frame after an update.
     pub of_bound: f64,
@@ -53,7 +53,7 @@ pub struct SeriesRow {
 }
 
 impl Shares {
-    /// The shares of one frame, without their signs.
+    /// Creates the shares of one frame, without their signs.
     pub fn of(row: &Row, law: &Law, aligned: bool) -> Self {
         let causes = &row.causes;
         let px = |share: Px| share.abs().to_f64();
@@ -74,7 +74,7 @@ impl Shares {
         }
     }
 
-    /// The larger of both, share by share.
+    /// Returns the larger of both, share by share.
     pub fn with(self, other: Self) -> Self {
         Self {
             taylor_px: self.taylor_px.max(other.taylor_px),
@@ -92,7 +92,7 @@ impl Shares {
     }
 }
 
-/// A frame of a path as it is told.
+/// Returns a frame of a path as it is reported.
 pub fn series(row: &Row, law: &Law, aligned: bool) -> SeriesRow {
     let causes = &row.causes;
     SeriesRow {

@@ -11,7 +11,7 @@ pub struct Pin<const N: usize> {
     pub carried: [f32; N],
 }
 
-/// A picture with depth, and `N` numbers a pixel.
+/// A picture with depth, and `N` numbers per pixel.
 #[derive(Clone, Debug)]
 pub struct Raster<const N: usize> {
     /// Columns.
@@ -25,7 +25,7 @@ pub struct Raster<const N: usize> {
 }
 
 impl<const N: usize> Raster<N> {
-    /// An empty picture.
+    /// Creates an empty picture.
     #[must_use]
     pub fn new(width: usize, height: usize) -> Self {
         Self { width, height, nearness: vec![0.0; width * height], carried: vec![[0.0; N]; width * height] }

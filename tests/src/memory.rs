@@ -1,4 +1,4 @@
-//! Memory for maps: owned here, lent to the engine for the time of a closure.
+//! Memory for maps: owned here, borrowed by the engine while a closure runs.
 
 use galpix_core::layers::Layers;
 use galpix_core::rolling::Rolling;
@@ -17,7 +17,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// A map without margin.
+    /// Creates a map without margin.
     #[must_use]
     pub const fn plain(width: u32, height: u32) -> Self {
         Self::new(width, height, [0; 4])
@@ -29,19 +29,19 @@ impl Shape {
         Self { width, height, margin: Margin { left, right, top, bottom } }
     }
 
-    /// Cells, margin included.
+    /// Returns the cells, margin included.
     #[must_use]
     pub const fn cells(self) -> u32 {
         Grid::cells_for(self.width, self.height, self.margin)
     }
 
-    /// Columns, margin included.
+    /// Returns the columns, margin included.
     #[must_use]
     pub const fn columns(self) -> u32 {
         self.width + self.margin.left + self.margin.right
     }
 
-    /// Rows, margin included.
+    /// Returns the rows, margin included.
     #[must_use]
     pub const fn rows(self) -> u32 {
         self.height + self.margin.top + self.margin.bottom
@@ -51,7 +51,8 @@ impl Shape {
 /// What memory holds before a map is laid over it: bits that no map has left there.
 const STALE: u32 = 0xa5a5_a5a5;
 
-/// Lends two maps over one grid: the first holds `content` (any words), or is empty; the second holds stale words.
+/// Runs a closure with two maps over one grid: the first holds `content` (any words), or is empty; the second holds
+/// stale words.
 ///
 /// Panics if the maps cannot be set up.
 pub fn with_maps<F: Format, R>(
@@ -72,9 +73,9 @@ pub fn with_maps<F: Format, R>(
     work(front.unwrap(), Galpixmap::over(grid, format, &mut back).unwrap())
 }
 
-/// Which of its scratch memories a controller is lent.
+/// Which scratch buffers a controller gets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Lent {
+pub enum Buffers {
     /// A winner map and an edge map.
     Both,
     /// A winner map.
@@ -85,21 +86,21 @@ pub enum Lent {
     Neither,
 }
 
-/// Lends a controller with some scratch memory. `content` as in [`with_maps`].
+/// Runs a closure with a controller with some scratch memory. `content` as in [`with_maps`].
 ///
 /// Panics if the maps cannot be set up.
 pub fn with_scratch<F: Format, R>(
     shape: Shape,
     format: F,
     content: Option<&[u32]>,
-    lent: Lent,
+    buffers: Buffers,
     work: impl for<'p> FnOnce(&mut Controller<'p, F>) -> R,
 ) -> R {
-    let (winners, edges) = match lent {
-        Lent::Both => (true, true),
-        Lent::Winners => (true, false),
-        Lent::Edges => (false, true),
-        Lent::Neither => (false, false),
+    let (winners, edges) = match buffers {
+        Buffers::Both => (true, true),
+        Buffers::Winners => (true, false),
+        Buffers::Edges => (false, true),
+        Buffers::Neither => (false, false),
     };
     let mut winners = vec![STALE; if winners { shape.cells() as usize } else { 0 }];
     let mut edges = vec![STALE; if edges { shape.cells().div_ceil(32) as usize } else { 0 }];
@@ -110,7 +111,8 @@ pub fn with_scratch<F: Format, R>(
     })
 }
 
-/// Lends a controller with all the scratch memory that any fill mode needs. `content` as in [`with_maps`].
+/// Runs a closure with a controller with all the scratch memory that any fill mode needs. `content` as in
+/// [`with_maps`].
 ///
 /// Panics if the maps cannot be set up.
 pub fn with_controller<F: Format, R>(
@@ -119,10 +121,10 @@ pub fn with_controller<F: Format, R>(
     content: Option<&[u32]>,
     work: impl for<'p> FnOnce(&mut Controller<'p, F>) -> R,
 ) -> R {
-    with_scratch(shape, format, content, Lent::Both, work)
+    with_scratch(shape, format, content, Buffers::Both, work)
 }
 
-/// Lends a map that holds `content` and is propagated in place, with a window of `rows` rows.
+/// Runs a closure with a map that holds `content` and is propagated in place, with a window of `rows` rows.
 ///
 /// Panics if it cannot be set up.
 pub fn with_rolling<F: Format, R>(
@@ -176,13 +178,13 @@ impl Mode {
     }
 }
 
-/// All planes of a map, one after the other.
+/// Returns all planes of a map, one after the other.
 #[must_use]
 pub fn words<F: Format>(map: &Galpixmap<'_, F>) -> Vec<u32> {
     (0..).map_while(|word| map.plane(word)).flatten().copied().collect()
 }
 
-/// The words of one cell.
+/// Returns the words of one cell.
 #[must_use]
 pub fn cell_words<F: Format>(map: &Galpixmap<'_, F>, cell: u32) -> Vec<u32> {
     (0..).map_while(|word| map.plane(word)).map(|plane| plane[cell as usize]).collect()
@@ -202,7 +204,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// What the last step of a controller left behind.
+    /// Returns what the last step of a controller left behind.
     #[must_use]
     pub fn of<F: Format>(controller: &Controller<'_, F>, tally: Tally) -> Self {
         Self {
@@ -237,7 +239,7 @@ pub struct Run {
     /// The entry point.
     pub mode: Mode,
     /// The scratch memory.
-    pub lent: Lent,
+    pub buffers: Buffers,
     /// The frame counter of the map to begin with.
     pub first: u32,
     /// How many frames.
@@ -248,21 +250,21 @@ impl Run {
     /// [`Mode::Step`] with all scratch memory, from frame 0 on.
     #[must_use]
     pub const fn new(settings: Settings, frames: u32) -> Self {
-        Self { settings, mode: Mode::Step, lent: Lent::Both, first: 0, frames }
+        Self { settings, mode: Mode::Step, buffers: Buffers::Both, first: 0, frames }
     }
 
-    /// The same by another entry point.
+    /// Returns the same by another entry point.
     #[must_use]
     pub const fn by(self, mode: Mode) -> Self {
         Self { mode, ..self }
     }
 
-    /// What each frame leaves behind, from a map that holds `content`.
+    /// Returns what each frame leaves behind, from a map that holds `content`.
     ///
     /// Panics if the maps cannot be set up.
     #[must_use]
     pub fn traces<F: Format>(&self, shape: Shape, format: F, content: &[u32]) -> Vec<Trace> {
-        with_scratch(shape, format, Some(content), self.lent, |controller| {
+        with_scratch(shape, format, Some(content), self.buffers, |controller| {
             controller.set_frame(self.first);
             let trace = |_| {
                 let tally = self.mode.step(controller, &self.settings);

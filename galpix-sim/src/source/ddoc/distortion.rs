@@ -14,7 +14,8 @@ pub struct Memory {
     splats: Vec<Splat>,
 }
 
-/// The depth word of an inverse distance of 0 (infinitely far) to 1 (the nearest): `1 - nearness` of the whole range.
+/// Returns the depth word of an inverse distance of 0 (infinitely far) to 1 (the nearest): `1 - nearness` of the whole
+/// range.
 #[must_use]
 pub fn depth_word(nearness: f64) -> u32 {
     let top = f64::from((1 << DEPTH_BITS) - 1);
@@ -23,7 +24,7 @@ pub fn depth_word(nearness: f64) -> u32 {
 }
 
 impl Memory {
-    /// The distortion map of a picture of `width` columns with these depths, one a pixel.
+    /// Returns the distortion map of a picture of `width` columns with these depths, one per pixel.
     ///
     /// *Errors:* a picture without a pixel, or with more than a map can have.
     pub fn map(
@@ -48,7 +49,7 @@ pub fn displacement(map: &DistortionMap<'_>, at: [f64; 2], depth: u32) -> [f64; 
     map.displacement(place, depth).map(|length| f64::from(length) / f64::from(ONE))
 }
 
-/// The settings of a map of depth words.
+/// Returns the settings of a map of depth words.
 #[must_use]
 pub const fn settings() -> Settings {
     ddoc::Settings::for_depth(DEPTH_BITS)

@@ -23,7 +23,7 @@ pub enum FigureError {
     Ddoc(#[from] DdocError),
 }
 
-/// The picture with this name, as a PNG.
+/// Returns the picture with this name, as a PNG.
 ///
 /// *Errors:* no such scene or world.
 pub fn made(name: &str) -> Result<Vec<u8>, FigureError> {
@@ -33,7 +33,8 @@ pub fn made(name: &str) -> Result<Vec<u8>, FigureError> {
     }
 }
 
-/// A world's depth image, its DDOC image and distortion map, and below a pair of frames and the truth, magnified.
+/// Returns a world's depth image, its DDOC image and distortion map, and below a pair of frames and the truth,
+/// magnified.
 ///
 /// *Errors:* no such world.
 ///
@@ -56,7 +57,7 @@ pub fn around_edges(world: &str) -> Result<Vec<u8>, DdocError> {
     Ok(film::grid(&panels.each_ref(), 3, 4).png().expect("a picture in memory can be encoded"))
 }
 
-/// A film of a built-in scene: sample-and-hold beside galpix, from one update.
+/// Returns a film of a built-in scene: sample-and-hold and galpix side by side, from one update.
 ///
 /// *Errors:* no such scene.
 ///

@@ -1,4 +1,4 @@
-//! The DDOC image of a built-in scene, as galpixels: what an update would carry beside the plain picture.
+//! The DDOC image of a built-in scene, as galpixels: what an update would carry besides the plain picture.
 
 use galpix_core::SetupError;
 use galpix_core::ddoc::{Settings, Tally};
@@ -12,7 +12,7 @@ use crate::update::Sample;
 /// One cell of a DDOC image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HiddenSample {
-    /// Column and row of the map, wings included, in which the DDOC image holds it: (u_d, v_d).
+    /// Column and row of the map, margin included, in which the DDOC image holds it: (u_d, v_d).
     pub cell: [i32; 2],
     /// Colour, depth and motion of the surface's point, exact at its own place.
     pub sample: Sample,
@@ -29,7 +29,7 @@ impl HiddenSample {
         [0, 1].map(|axis: usize| self.place[axis].round() as i32 - self.cell[axis])
     }
 
-    /// Where in the cell in which it is drawn it is: -1/2 to 1/2.
+    /// Returns where in the cell in which it is drawn it is: -1/2 to 1/2.
     #[must_use]
     pub fn offset(&self) -> [f64; 2] {
         self.place.map(|coordinate| coordinate - coordinate.round())
@@ -46,8 +46,8 @@ impl HiddenSample {
 /// Nodes of a mesh a pixel: denser than the picture, so that what is moved apart stays closed.
 const DENSITY: usize = 2;
 
-/// The DDOC image of `scene` at its update, t = 0, over its whole map, wings included: one sample for each cell in
-/// which it has anything, row by row. Depths of `settings` are words of [`distortion::DEPTH_BITS`].
+/// Returns the DDOC image of `scene` at its update, t = 0, over its whole map, margin included: one sample for each
+/// cell in which it has anything, row by row. Depths of `settings` are words of [`distortion::DEPTH_BITS`].
 ///
 /// *Errors:* a scene that is too large for a map.
 pub fn hidden(scene: &dyn Scene, settings: &Settings) -> Result<(Vec<HiddenSample>, Tally), SetupError> {
@@ -58,7 +58,7 @@ pub fn hidden(scene: &dyn Scene, settings: &Settings) -> Result<(Vec<HiddenSampl
     let (map, tally) = memory.map(width, &depths, settings)?;
 
     // From the display's places to the map's.
-    let corner = [update.wings.left as f64, update.wings.top as f64];
+    let corner = [update.margin.left as f64, update.margin.top as f64];
     let size = [width, height].map(|cells| (cells - 1) * DENSITY + 1);
     let lattice = Lattice { first: corner.map(|wing| -wing), step: 1.0 / DENSITY as f64, size };
     // Carried: by how much a node was moved, its surface, its side.
@@ -88,7 +88,7 @@ pub fn hidden(scene: &dyn Scene, settings: &Settings) -> Result<(Vec<HiddenSampl
         let place = [f64::from(cell[0]) - f64::from(x), f64::from(cell[1]) - f64::from(y)];
         let (index, back) = (index.round() as usize, back > 0.5);
         let on_display = [place[0] - corner[0], place[1] - corner[1]];
-        // A rim between two nodes may be a hair beside its surface.
+        // A rim between two nodes may miss its surface by a hair.
         let Some(sample) = scene::sample_of(scene, index, back, on_display, 0.0) else { continue };
         let seen = scene.sample(on_display[0], on_display[1], 0.0);
         let hidden = seen.tag != sample.tag || back;
