@@ -18,7 +18,7 @@ fn main() -> Result<(), BudgetError> {
 
     let format = Dynamic::new(bits, SLIDER)?;
     let record = format.record();
-    println!("{} bits in {} words a galpixel", record.bits(), record.words());
+    println!("{} bits in {} words per galpixel", record.bits(), record.words());
     for (name, field) in [
         ("class", record.class()),
         ("offset x", record.offset_x()),
