@@ -77,10 +77,12 @@ pub enum Picture {
     /// Surfaces whose depths differ by just as much as one surface may, or by one more, with debris and holes; offsets
     /// anywhere, every other one small.
     Surfaces,
+    /// The same with offsets at the limits of sub-cell scan-out: a 256th of a cell, three eighths, a half.
+    Limits,
 }
 
 impl Picture {
-    /// All of them but the last four, which are for inpainting, disocclusion and scan-out.
+    /// All of them but the last five, which are for inpainting, disocclusion and scan-out.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -115,6 +117,7 @@ impl Picture {
             Self::Slide => "slide",
             Self::Creep => "creep",
             Self::Surfaces => "surfaces",
+            Self::Limits => "limits",
         }
     }
 }
@@ -136,6 +139,7 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             Picture::Extreme => each_field(record, |name, field| extreme_field(name, field, random)),
             Picture::Creep => each_field(record, |name, field| creeping_field(name, field, random)),
             Picture::Surfaces => each_field(record, |name, field| surface_field(name, field, random)),
+            Picture::Limits => each_field(record, |name, field| limit_field(name, field, random)),
             _ => drawn(picture, record, [x, y], [columns, rows], random),
         };
         for (word, value) in words.iter().take(record.words()).enumerate() {
@@ -195,6 +199,16 @@ fn surface_field(name: &str, field: Field, random: &mut Random) -> i32 {
         }
         "offset_x" | "offset_y" => random.signed(bits) >> random.below(2),
         _ => random.signed(bits),
+    }
+}
+
+fn limit_field(name: &str, field: Field, random: &mut Random) -> i32 {
+    match name {
+        "offset_x" | "offset_y" => {
+            let parts = [0, 1, -1, 96, -96, 97, -97, 127, -128][random.below(9) as usize];
+            parts << u32::from(field.bits).saturating_sub(8)
+        }
+        _ => surface_field(name, field, random),
     }
 }
 

@@ -13,7 +13,7 @@ use crate::run::{GridMemory, Model, RunError};
 /// A map, and what a display shows of it.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SubCell {
-    /// Widths, lanes, places, size.
+    /// Widths, fields, places, size.
     #[serde(flatten)]
     pub setting: Setting,
     /// The largest difference of depths within a surface, in units of the depth's last bit.
@@ -24,7 +24,7 @@ pub struct SubCell {
     pub shown: Vec<u32>,
 }
 
-/// Rows longer than any run that an engine may take at once, lines along either side, wings, and a single cell.
+/// Rows longer than any run that an engine may take at once, lines along either side, margins, and a single cell.
 const SHAPES: [GridSize; 7] = [
     grid(12, 9, [0; 4]),
     grid(70, 3, [0; 4]),
@@ -47,7 +47,22 @@ fn finest() -> Result<Bits, RunError> {
     Ok(bits.with_xy(component(9, [4, 8], [0, 0]).checked()?, component(13, [4, 12], [0, 0]).checked()?))
 }
 
-/// All cases, over the layouts of the others and two more.
+/// Offsets of just as many bits as scan-out weighs by, and along a column two more.
+fn fine() -> Result<Bits, RunError> {
+    let bits = Bits::derive_without_acceleration(Demand { extent: 64, recog: 8, prop: 8 })?;
+    Ok(bits.with_xy(component(8, [4, 7], [0, 0]).checked()?, component(10, [4, 9], [0, 0]).checked()?))
+}
+
+/// Offsets at the limits, and thresholds about as large as the widest depth and larger.
+const LIMITS: [(Picture, Option<u32>, GridSize); 5] = [
+    (Picture::Limits, None, grid(33, 6, [1, 0, 0, 1])),
+    (Picture::Random, Some(1 << 26), grid(33, 6, [0; 4])),
+    (Picture::Limits, Some(0), grid(12, 9, [0; 4])),
+    (Picture::Extreme, Some(1 << 28), grid(12, 9, [0; 4])),
+    (Picture::Limits, Some(1 << 31), grid(70, 3, [0; 4])),
+];
+
+/// Returns all cases, over the layouts of the others and three more.
 pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     let more = [
         Model::new("finest", Layout { depth_bits: 28, ..Layout::VELOCITY565 }, finest()?)?,
@@ -62,6 +77,11 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
             let threshold = [default, default, 0, default, u32::MAX][(turn + place) % 5];
             cases.push(case(seed, model, (picture, threshold), map_size)?);
         }
+    }
+    let fine = Model::new("fine", Layout { depth_bits: 28, ..Layout::VELOCITY565 }, fine()?)?;
+    for (picture, threshold, map_size) in LIMITS {
+        let threshold = threshold.unwrap_or(threshold_for_depth(fine.depth_bits()));
+        cases.push(case(seed, &fine, (picture, threshold), map_size)?);
     }
     Ok(cases)
 }
