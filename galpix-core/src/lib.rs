@@ -11,7 +11,8 @@
 //! 3. **edge** marks the cells on the edge of a surface.
 //! 4. **fill** fills the cells at which nothing arrived, as the [`FillMode`] says.
 //! 5. [`inpaint`] is optional: it fills what was just unobscured from all that is known around it.
-//! 6. [`scan_out`] delivers rows of colour to a display, with an [`overlay`] if one is pinned.
+//! 6. [`scan_out`] delivers rows of colour to a display, with an [`overlay`] if one is pinned; [`sub_cell`] resamples
+//!    them, so that what moves slowly slides.
 //!
 //! A [`Controller`] makes frames with two maps that it swaps, [`rolling::Rolling`] with one map and a window of rows,
 //! and [`layers::Layers`] composes several maps. `Controller` and `Layers` also have a constant-time step, whose
@@ -93,9 +94,14 @@ pub mod stages {
 
 /// Rows of colour for a display.
 pub mod scan_out {
-    pub use crate::output::scan_out::{Bare, Over, row};
+    pub use crate::output::scan_out::{Bare, Nearest, Over, Sampling, row};
     #[cfg(feature = "embedded-graphics")]
     pub use crate::output::scan_out::{PanelColour, View};
+}
+
+/// Rows of colour that are resampled by where in its cell each galpixel is.
+pub mod sub_cell {
+    pub use crate::output::sub_cell::{SubCell, row};
 }
 
 /// Cells that are pinned over the picture.

@@ -458,9 +458,21 @@ def check_disocclusion(case, where, differences):
     return Checked(0, 2 * cells + len(mask) + len(counts)), arrays
 
 
+def check_subcell(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    arrays = {"front": get_words(case, "front", where, record.words * cells),
+              "shown": get_words(case, "shown", where, engine.grid.width * engine.grid.height)}
+    front = model.unpack_map(arrays["front"], record, cells)
+    shown = model.scan_out(engine, front, get_int(case, "threshold", where))
+    compare_numbers("colour shown", arrays["shown"], shown, where, differences)
+    return Checked(0, len(shown)), arrays
+
+
 CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
           "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects,
-          "disocclusion": check_disocclusion}
+          "disocclusion": check_disocclusion, "subcell": check_subcell}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
@@ -471,6 +483,7 @@ COMPARED = {
     "layers": "records, displacements, own and shown maps, layers shown, counts",
     "objects": "records, maps, counts",
     "disocclusion": "records, extents as marked and as spread, masks, counts",
+    "subcell": "records, colours shown",
 }
 
 

@@ -1778,6 +1778,171 @@ def enter_object(engine, galpixels, rendering, rounding, n):
     return result, counts
 
 
+# --- 20. Sub-cell scan-out -------------------------------------------------------------------------------------------
+
+ALIKE = 96                                          # counts 256ths of a cell
+TOWARDS = ((-1, 0), (1, 0), (0, -1), (0, 1))        # leads to the neighbours, in the order of SIDES
+
+
+def part(engine, galpixel, number):
+    """Section 20, parts: that of x (number 0) or of y (1)."""
+    name = f"offset_{COMPONENTS[number]}"
+    if not engine.widths[name]:
+        reached["20 part without an offset field"] += 1
+        return 0
+    o, f = galpixel[name], engine.position_frac[number]
+    if f <= 8:
+        reached["20 part, f < 8" if f < 8 else "20 part, f = 8"] += 1
+        return o << (8 - f)
+    rounded = (o + (1 << (f - 9))) >> (f - 8)
+    if low_bits(o, f - 8) == 1 << (f - 9):
+        reached["20 part, f > 8, half"] += 1
+    else:
+        reached["20 part, f > 8, rounds up" if rounded > o >> (f - 8) else "20 part, f > 8, rounds down"] += 1
+    if rounded == 128:
+        reached["20 part, f > 8, half a cell"] += 1
+    return rounded
+
+
+def galpixel_at(engine, galpixels, column, row):
+    """Section 20: the galpixel of a cell of the map; outside of the map one of class 3."""
+    if not (0 <= column < columns(engine.grid) and 0 <= row < rows(engine.grid)):
+        reached["20 outside of the map"] += 1
+        return empty_galpixel()
+    return galpixels[row * columns(engine.grid) + column]
+
+
+def join(one, other, limit):
+    """Section 20: whether two cells join."""
+    for galpixel in (one, other):
+        if galpixel["class"] != GALPIXEL:
+            reached[f"20 do not join: class {galpixel['class']}"] += 1
+            return False
+    difference = abs(one["depth"] - other["depth"])
+    if difference > limit:
+        reached["20 do not join: depth"] += 1
+        return False
+    if difference:
+        reached["20 join, just so" if difference == limit else "20 join, depths differ"] += 1
+    return True
+
+
+def parts_alike(engine, one, other, number):
+    """Section 20: whether the parts of two cells that join allow to mix them."""
+    difference = abs(part(engine, one, number) - part(engine, other, number))
+    name = COMPONENTS[number]
+    if difference > ALIKE:
+        reached[f"20 parts in {name} not alike{', just so' if difference == ALIKE + 1 else ''}"] += 1
+        return False
+    if difference == ALIKE:
+        reached[f"20 parts in {name} alike, just so"] += 1
+    return True
+
+
+def round_256ths(total, what):
+    """Section 20: the nearest whole number to a number of 256ths, halves upwards."""
+    rest = low_bits(total, 8)
+    if rest:
+        kind = {127: "just below half", 128: "half"}.get(rest, "rounds up" if rest > 128 else "rounds down")
+        reached[f"20 {what}, {kind}"] += 1
+    return (total + 128) >> 8
+
+
+def bilinear(engine, galpixels, column, row, limit):
+    """Section 20, bilinear: the channels of the cell at `column`, `row` of the map."""
+    own = galpixel_at(engine, galpixels, column, row)
+    ox, oy = part(engine, own, 0), part(engine, own, 1)
+    sx, sy = -1 if ox > 0 else 1, -1 if oy > 0 else 1
+    beside = galpixel_at(engine, galpixels, column + sx, row)
+    below = galpixel_at(engine, galpixels, column, row + sy)        # stands for the one above too
+    corner = galpixel_at(engine, galpixels, column + sx, row + sy)
+    p = abs(ox) if join(own, beside, limit) and parts_alike(engine, beside, own, 0) else 0
+    q = abs(oy) if join(own, below, limit) and parts_alike(engine, below, own, 1) else 0
+    d = 0
+    if join(own, corner, limit):
+        d = round_256ths(p * q, "bilinear corner")
+    if p and q:
+        reached["20 bilinear, both axes" if join(own, corner, limit) else "20 bilinear, corner not joined"] += 1
+    elif p or q:
+        reached["20 bilinear, x alone" if p else "20 bilinear, y alone"] += 1
+    else:
+        reached["20 bilinear, nothing"] += 1
+    if p:
+        reached["20 bilinear from the left" if sx < 0 else "20 bilinear from the right"] += 1
+    if q:
+        reached["20 bilinear from above" if sy < 0 else "20 bilinear from below"] += 1
+    channels = []
+    for c, a, b, e in zip(*(split_channels(galpixel["colour"], engine.layout.colour)
+                            for galpixel in (own, beside, below, corner))):
+        channels.append(round_256ths(c * (256 - p - q + d) + a * (p - d) + b * (q - d) + e * d, "bilinear"))
+    return channels
+
+
+def covers(one, other, limit):
+    """Section 20: whether a cell covers another one."""
+    if one["class"] != GALPIXEL or other["class"] == EMPTY:
+        return False
+    if other["class"] != GALPIXEL:
+        reached[f"20 covers class {other['class']}"] += 1
+        return True
+    farther = other["depth"] - one["depth"]
+    if farther > limit:
+        reached["20 covers by depth"] += 1
+        return True
+    if farther and farther == limit:
+        reached["20 just does not cover"] += 1
+    return False
+
+
+def silhouettes(engine, galpixels, column, row, limit, channels):
+    """Section 20, silhouettes: the channels after all four neighbours, in the order of SIDES."""
+    own = galpixel_at(engine, galpixels, column, row)
+    mixed = 0
+    for side, (right, down) in enumerate(TOWARDS):
+        neighbour = galpixel_at(engine, galpixels, column + right, row + down)
+        number = 0 if right else 1
+        if covers(neighbour, own, limit):
+            o, how = part(engine, neighbour, number), "covers the cell"
+        elif covers(own, neighbour, limit):
+            o, how = part(engine, own, number), "is covered"
+        else:
+            continue
+        t = o if side in (LEFT, ABOVE) else -o
+        if t <= 0:
+            reached[f"20 silhouette, {SIDES[side]} {how}, but not shown"] += 1
+            continue
+        reached[f"20 silhouette, {SIDES[side]} {how}"] += 1
+        mixed += 1
+        colours = split_channels(neighbour["colour"], engine.layout.colour)
+        channels = [round_256ths(v * (256 - t) + n * t, "silhouette") for v, n in zip(channels, colours)]
+    if mixed:
+        reached["20 silhouette alone" if mixed == 1 else "20 several silhouettes"] += 1
+    return channels
+
+
+def scan_out(engine, galpixels, limit):
+    """Section 20: the colour of each cell of the display, row by row; `limit` is the threshold."""
+    reached[f"20 colour {engine.layout.colour}"] += 1
+    reached["20 depths" if engine.layout.depth_bits else "20 no depth field"] += 1
+    reached["20 threshold 0" if limit == 0 else "20 threshold above 0"] += 1
+    grid = engine.grid
+    shown = []
+    for row in range(grid.top, grid.top + grid.height):
+        for column in range(grid.left, grid.left + grid.width):
+            own = galpixel_at(engine, galpixels, column, row)
+            reached[f"20 shown, class {own['class']}"] += 1
+            resampled = bilinear(engine, galpixels, column, row, limit)
+            channels = silhouettes(engine, galpixels, column, row, limit, resampled)
+            before = split_channels(own["colour"], engine.layout.colour)
+            if before != resampled != channels:
+                reached["20 silhouette over bilinear"] += 1
+            if any(not in_display(grid, column + right, row + down) and channels != before
+                   for right, down in TOWARDS if 0 <= column + right < columns(grid) and 0 <= row + down < rows(grid)):
+                reached["20 beside the margin"] += 1
+            shown.append(join_channels(channels, engine.layout.colour))
+    return shown
+
+
 # --- The rules -------------------------------------------------------------------------------------------------------
 
 def rule_names():
@@ -1890,6 +2055,24 @@ def rule_names():
               "18 lost on the way", "18 of equals the one that was there", "18 behind what was there",
               "18 of several equals the first", "18 of several the nearest", "18 replaces what was there",
               "18 into an empty cell"]
+    names += ["20 part without an offset field", "20 part, f < 8", "20 part, f = 8", "20 part, f > 8, half",
+              "20 part, f > 8, rounds up", "20 part, f > 8, rounds down", "20 part, f > 8, half a cell",
+              "20 outside of the map", "20 beside the margin", "20 do not join: depth", "20 join, just so",
+              "20 join, depths differ"]
+    names += [f"20 do not join: class {klass}" for klass in (JUST_UNOBSCURED, DEBRIS, EMPTY)]
+    names += [f"20 parts in {name} {how}" for name in "xy"
+              for how in ("not alike", "not alike, just so", "alike, just so")]
+    names += [f"20 {what}, {how}" for what in ("bilinear corner", "bilinear", "silhouette")
+              for how in ("just below half", "half", "rounds up", "rounds down")]
+    names += [f"20 bilinear, {how}" for how in ("both axes", "corner not joined", "x alone", "y alone", "nothing")]
+    names += [f"20 bilinear from {where}" for where in ("the left", "the right", "above", "below")]
+    names += ["20 covers class 1", "20 covers class 2", "20 covers by depth", "20 just does not cover"]
+    names += [f"20 silhouette, {side} {how}{shown}" for side in SIDES for how in ("covers the cell", "is covered")
+              for shown in ("", ", but not shown")]
+    names += ["20 silhouette alone", "20 several silhouettes", "20 silhouette over bilinear"]
+    names += ["20 depths", "20 no depth field", "20 threshold 0", "20 threshold above 0"]
+    names += [f"20 colour {name}" for name in FORMATS]
+    names += [f"20 shown, class {klass}" for klass in range(4)]
     return names
 
 

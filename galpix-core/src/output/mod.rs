@@ -2,3 +2,4 @@
 
 pub mod overlay;
 pub mod scan_out;
+pub mod sub_cell;

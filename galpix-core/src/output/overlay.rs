@@ -135,16 +135,16 @@ pub fn row<'m, F: Format>(
     overlay: &'m Overlay<'_>,
     y: u32,
 ) -> impl ExactSizeIterator<Item = u32> + 'm {
-    overlay.span(map, y, 0, map.grid().display_width())
+    overlay.over(scan_out::row(map, y), y, 0)
 }
 
 impl Over for &Overlay<'_> {
     #[inline(always)]
-    fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32> {
+    fn over(self, colours: impl ExactSizeIterator<Item = u32>, y: u32, x: u32) -> impl ExactSizeIterator<Item = u32> {
         // Above and to the left of the overlay the difference wraps to a row or column that the overlay does not have.
         let pinned = self.row(y.wrapping_sub(self.top));
         let first = x.wrapping_sub(self.left);
-        scan_out::span(map, y, x, width).enumerate().map(move |(column, colour)| {
+        colours.enumerate().map(move |(column, colour)| {
             let place = first.wrapping_add(column as u32) as usize;
             pinned.get(place).and_then(|&word| self.shown(word)).unwrap_or(colour)
         })

@@ -3,7 +3,7 @@
 //! [`row`] returns the colour words of a row in order, for scanline engines and DMA. With the feature
 //! `embedded-graphics`, the type `View` of the whole display or of a band of its rows is an `ImageDrawable`, and any
 //! `DrawTarget` is a display; it receives contiguous rows, never single pixels. Overlays are applied here, see
-//! [`crate::output::overlay`].
+//! [`crate::output::overlay`]. [`crate::output::sub_cell`] resamples the rows by where in its cell each galpixel is.
 
 use crate::format::Format;
 use crate::map::Galpixmap;
@@ -13,11 +13,29 @@ pub fn row<'m, F: Format>(map: &'m Galpixmap<'_, F>, y: u32) -> impl ExactSizeIt
     span(map, y, 0, map.grid().display_width())
 }
 
-/// What is shown over a map: [`Bare`] for nothing, or a reference to an [`Overlay`](crate::overlay::Overlay).
-pub trait Over: Copy {
+/// How cells become the colours of a display: [`Nearest`] or [`SubCell`](crate::sub_cell::SubCell).
+pub trait Sampling: Copy {
     /// Returns the colour words of `width` columns from `x` on of row `y` of the display; fewer at the end of the
     /// display.
     fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32>;
+}
+
+/// A cell shows the colour that it holds, wherever in the cell its galpixel is.
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest;
+
+impl Sampling for Nearest {
+    #[inline(always)]
+    fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32> {
+        span(map, y, x, width)
+    }
+}
+
+/// What is shown over a map: [`Bare`] for nothing, or a reference to an [`Overlay`](crate::overlay::Overlay).
+pub trait Over: Copy {
+    /// Returns the colour words that are shown over `colours`, which are those of row `y` of the display from column
+    /// `x` on.
+    fn over(self, colours: impl ExactSizeIterator<Item = u32>, y: u32, x: u32) -> impl ExactSizeIterator<Item = u32>;
 }
 
 /// Nothing is shown over the map.
@@ -26,13 +44,13 @@ pub struct Bare;
 
 impl Over for Bare {
     #[inline(always)]
-    fn span<F: Format>(self, map: &Galpixmap<'_, F>, y: u32, x: u32, width: u32) -> impl ExactSizeIterator<Item = u32> {
-        span(map, y, x, width)
+    fn over(self, colours: impl ExactSizeIterator<Item = u32>, _y: u32, _x: u32) -> impl ExactSizeIterator<Item = u32> {
+        colours
     }
 }
 
 /// Returns the colour words of `width` columns from `x` on of row `y` of the display; fewer at the end of the display.
-pub(crate) fn span<'m, F: Format>(
+fn span<'m, F: Format>(
     map: &'m Galpixmap<'_, F>,
     y: u32,
     x: u32,
@@ -73,7 +91,7 @@ mod panel {
     use crate::format::colour::Colour;
     use crate::map::Galpixmap;
 
-    use super::{Bare, Over};
+    use super::{Bare, Nearest, Over, Sampling};
 
     /// A pixel type of `embedded-graphics` that corresponds to a colour format.
     pub trait PanelColour: PixelColor {
@@ -130,9 +148,10 @@ mod panel {
     ///
     /// `C` is the pixel type of the panel. Maps of another colour format are converted by 8-bit red, green and blue.
     #[derive(Debug)]
-    pub struct View<'m, 'p, F, C, O = Bare> {
+    pub struct View<'m, 'p, F, C, O = Bare, S = Nearest> {
         map: &'m Galpixmap<'p, F>,
         over: O,
+        sampling: S,
         pixel: PhantomData<C>,
         top: u32,
         rows: u32,
@@ -142,7 +161,7 @@ mod panel {
         /// Makes a view of the whole display.
         #[must_use]
         pub fn new(map: &'m Galpixmap<'p, F>) -> Self {
-            Self { map, over: Bare, pixel: PhantomData, top: 0, rows: map.grid().display_height() }
+            Self { map, over: Bare, sampling: Nearest, pixel: PhantomData, top: 0, rows: map.grid().display_height() }
         }
 
         /// Makes a view of at most `rows` rows of the display from row `top` on; fewer at its end. Draw it at `(0,
@@ -150,23 +169,34 @@ mod panel {
         #[must_use]
         pub fn band(map: &'m Galpixmap<'p, F>, top: u32, rows: u32) -> Self {
             let top = top.min(map.grid().display_height());
-            Self { map, over: Bare, pixel: PhantomData, top, rows: rows.min(map.grid().display_height() - top) }
-        }
-
-        /// Returns the view under an overlay.
-        #[must_use]
-        pub fn under<O: Over>(self, over: O) -> View<'m, 'p, F, C, O> {
-            View { map: self.map, over, pixel: PhantomData, top: self.top, rows: self.rows }
+            let rows = rows.min(map.grid().display_height() - top);
+            Self { map, over: Bare, sampling: Nearest, pixel: PhantomData, top, rows }
         }
     }
 
-    impl<F: Format, C, O> OriginDimensions for View<'_, '_, F, C, O> {
+    impl<'m, 'p, F, C, O, S> View<'m, 'p, F, C, O, S> {
+        /// Returns the view under an overlay.
+        #[must_use]
+        pub fn under<P: Over>(self, over: P) -> View<'m, 'p, F, C, P, S> {
+            let Self { map, sampling, pixel, top, rows, .. } = self;
+            View { map, over, sampling, pixel, top, rows }
+        }
+
+        /// Returns the view with colours that are sampled in another way.
+        #[must_use]
+        pub fn sampled<T: Sampling>(self, sampling: T) -> View<'m, 'p, F, C, O, T> {
+            let Self { map, over, pixel, top, rows, .. } = self;
+            View { map, over, sampling, pixel, top, rows }
+        }
+    }
+
+    impl<F: Format, C, O, S> OriginDimensions for View<'_, '_, F, C, O, S> {
         fn size(&self) -> Size {
             Size::new(self.map.grid().display_width(), self.rows)
         }
     }
 
-    impl<F: Format, C: PanelColour, O: Over> ImageDrawable for View<'_, '_, F, C, O> {
+    impl<F: Format, C: PanelColour, O: Over, S: Sampling> ImageDrawable for View<'_, '_, F, C, O, S> {
         type Color = C;
 
         fn draw<D: DrawTarget<Color = Self::Color>>(&self, target: &mut D) -> Result<(), D::Error> {
@@ -184,7 +214,10 @@ mod panel {
             // The trait requires the area to be drawn at the target's origin.
             let place = Rectangle::new(inside.top_left - area.top_left, inside.size);
             let format = *self.map.record().colour_format();
-            let row = |y: u32| self.over.span(self.map, y, left, width).map(move |word| C::of(&format, word));
+            let row = |y: u32| {
+                let colours = self.sampling.span(self.map, y, left, width);
+                self.over.over(colours, y, left).map(move |word| C::of(&format, word))
+            };
             if inside.size.height == 1 {
                 // A single row needs no iterator over rows.
                 return target.fill_contiguous(&place, row(first));

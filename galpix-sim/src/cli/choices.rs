@@ -3,6 +3,7 @@
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
+use crate::engine::ScanOut;
 use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
 use crate::source::capture::{AccelerationPolicy, ImportOptions};
 use crate::source::hidden::Strategy;
@@ -66,6 +67,25 @@ impl From<FillChoice> for Fill {
             FillChoice::Extend => FillMode::Extend.into(),
             FillChoice::PushPull => Kind::PushPull.into(),
             FillChoice::Metamer => Kind::Metamer.into(),
+        }
+    }
+}
+
+/// What a pixel shows of the galpixels around it.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum ScanOutChoice {
+    /// The colour of its own cell
+    #[default]
+    Nearest,
+    /// Colours of its surface resampled by where in their cells the galpixels are, silhouettes by coverage
+    SubCell,
+}
+
+impl From<ScanOutChoice> for ScanOut {
+    fn from(choice: ScanOutChoice) -> Self {
+        match choice {
+            ScanOutChoice::Nearest => Self::Nearest,
+            ScanOutChoice::SubCell => Self::SubCell,
         }
     }
 }
@@ -176,6 +196,9 @@ pub struct Extrapolation {
     /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
     #[arg(long, value_name = "PART", value_parser = part)]
     pub edge_threshold: Option<f64>,
+    /// How cells become pixels
+    #[arg(long, value_enum, value_name = "MODE", default_value_t)]
+    pub scan_out: ScanOutChoice,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     pub acceleration: AccelerationChoice,
@@ -201,6 +224,7 @@ impl Extrapolation {
             fill: self.inpainting.of(self.fill.into()),
             reach: self.reach,
             edge_threshold: self.edge_threshold,
+            scan_out: self.scan_out.into(),
             perceptual: true,
             strategy: Strategy::ONE,
         }

@@ -6,20 +6,20 @@ pub mod fill;
 mod layer;
 mod load;
 mod origins;
+mod scan_out;
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
-use galpix_core::overlay::{self, Overlay};
-use galpix_core::{
-    BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally, scan_out,
-};
+use galpix_core::overlay::Overlay;
+use galpix_core::{BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally};
 
 pub use layer::HiddenLayer;
 pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
+pub use scan_out::ScanOut;
 
 use crate::picture::Picture;
 use crate::update::Update;
@@ -76,6 +76,8 @@ pub struct Frame<'f> {
     pub time: Duration,
     map: &'f Galpixmap<'f, Dynamic>,
     overlay: Option<&'f Overlay<'f>>,
+    settings: &'f Settings,
+    scan_out: ScanOut,
     origins: &'f [u32],
 }
 
@@ -85,6 +87,7 @@ pub struct Engine {
     settings: Settings,
     inpaint: Option<Inpaint>,
     constant_time: bool,
+    scan_out: ScanOut,
 }
 
 /// An update and its hidden layers, the first of which is layer 1.
@@ -98,7 +101,7 @@ impl Engine {
     /// Makes an engine for maps of a format.
     #[must_use]
     pub const fn new(format: Dynamic, settings: Settings) -> Self {
-        Self { format, settings, inpaint: None, constant_time: false }
+        Self { format, settings, inpaint: None, constant_time: false, scan_out: ScanOut::Nearest }
     }
 
     /// Returns the same with inpainting after each frame; its fill mode should be
@@ -106,6 +109,12 @@ impl Engine {
     #[must_use]
     pub const fn inpainting(self, inpaint: Option<Inpaint>) -> Self {
         Self { inpaint, ..self }
+    }
+
+    /// Returns the same with pictures that are made in another way.
+    #[must_use]
+    pub const fn scanning_out(self, scan_out: ScanOut) -> Self {
+        Self { scan_out, ..self }
     }
 
     /// Returns the same by instructions that do not depend on the picture, if `constant_time`.
@@ -203,7 +212,8 @@ impl Engine {
                 origins.follow(&maps, hidden);
             }
             origins.look(&maps, hidden, display_cells(&grid));
-            visit(&Frame { number, tally, time, map: maps.shown(), overlay, origins: &origins.shown });
+            let (map, origins, settings) = (maps.shown(), &origins.shown, &self.settings);
+            visit(&Frame { number, tally, time, map, overlay, settings, scan_out: self.scan_out, origins });
         }
         Ok(origins.used)
     }
@@ -223,11 +233,7 @@ impl Frame<'_> {
     pub fn picture(&self) -> Picture {
         let grid = self.map.grid();
         let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let rows = 0..height as u32;
-        let words: Vec<u32> = match self.overlay {
-            Some(overlay) => rows.flat_map(|y| overlay::row(self.map, overlay, y)).collect(),
-            None => rows.flat_map(|y| scan_out::row(self.map, y)).collect(),
-        };
+        let words = self.scan_out.words(self.map, self.overlay, self.settings);
         let colour = self.map.record().colour_format();
         let pixels = words.into_iter().map(|word| colour.to_rgb888(word)).collect();
         Picture { width, height, pixels }

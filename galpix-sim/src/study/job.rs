@@ -6,7 +6,7 @@ use galpix_core::stages::{threshold_for_depth, threshold_for_speed};
 use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Record, Rounding, Settings};
 
 use crate::engine::fill::Fill;
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, ScanOut};
 use crate::source::hidden::{self, Carried, Kind, Strategy};
 use crate::source::{Source, SourceError};
 use crate::update::{DepthKind, Update};
@@ -54,6 +54,8 @@ pub struct Request {
     pub reach: u32,
     /// The Laplacian beyond which a cell is on an edge, as a part of the depth range; by depth kind if absent.
     pub edge_threshold: Option<f64>,
+    /// How cells become pixels.
+    pub scan_out: ScanOut,
     /// Whether SSIM and FLIP are computed too.
     pub perceptual: bool,
     /// Which hidden samples are handed over.
@@ -71,6 +73,7 @@ impl Default for Request {
             fill: Fill::default(),
             reach: 1,
             edge_threshold: None,
+            scan_out: ScanOut::default(),
             perceptual: true,
             strategy: Strategy::ONE,
         }
@@ -187,7 +190,8 @@ impl<'s> Job<'s> {
     /// Returns the engine that makes its frames.
     #[must_use]
     pub fn engine(&self) -> Engine {
-        Engine::new(self.format, self.settings).inpainting(self.request.fill.inpaint())
+        let Request { fill, scan_out, .. } = self.request;
+        Engine::new(self.format, self.settings).inpainting(fill.inpaint()).scanning_out(scan_out)
     }
 
     /// Returns what the source hands over.

@@ -27,7 +27,7 @@ fn is_number(value: &Value) -> bool {
 }
 
 fn assert_report(report: &Value, frames: usize) {
-    for key in ["source", "rounding", "fill"] {
+    for key in ["source", "rounding", "fill", "scan_out"] {
         assert!(report[key].is_string(), "{key}: {}", report[key]);
     }
     for key in ["width", "height", "ns_per_galpixel"] {
@@ -106,6 +106,31 @@ fn every_fill_mode_and_rounding_is_known_by_name() {
     for rounding in ["truncate", "nearest", "low-discrepancy"] {
         let report = json(folder.path(), &["run", "drift", "--frames", "2", "--rounding", rounding, "--json"]);
         assert_eq!(report["rounding"].as_str(), Some(rounding));
+    }
+}
+
+/// The frames stay what they are, the pictures of what moves come nearer to the truth, the update stays as it is.
+#[test]
+fn sub_cell_scan_out_changes_what_is_shown_and_nothing_else() {
+    let folder = folder();
+    let source = marbles().display().to_string();
+    let [nearest, resampled] = ["nearest", "sub-cell"].map(|mode| {
+        let report = json(
+            folder.path(),
+            &["run", &source, "--frames", "4", "--prop", "16", "--scan-out", mode, "--out", mode, "--json"],
+        );
+        assert_eq!(report["scan_out"], mode);
+        report
+    });
+    let update = |mode: &str| std::fs::read(folder.path().join(mode).join("0000.png")).expect("the update");
+    assert_eq!(update("nearest"), update("sub-cell"));
+    for number in [0, 1, 3] {
+        let [near, sub] = [&nearest, &resampled].map(|report| &report["frames"][number]);
+        for key in ["holes", "bullets", "lost", "collided", "edges"] {
+            assert_eq!(near[key], sub[key], "{key}");
+        }
+        let [near, sub] = [near, sub].map(|frame| frame["truth"]["psnr_db"].as_f64().expect("a truth"));
+        assert!(sub > near + 0.5, "frame {}: {near} dB, resampled {sub} dB", number + 1);
     }
 }
 

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::disocclusion::Disocclusion;
 use crate::layered::Layers;
 use crate::objects::Objects;
+use crate::sub_cell::SubCell;
 
 /// Everything that was written, with the hash of every file.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -25,7 +26,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame, inpaint, layers, objects or disocclusion.
+    /// step, resolve, edge, fill, frame, inpaint, layers, objects, disocclusion or subcell.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -76,6 +77,8 @@ pub enum Content {
     Objects(Objects),
     /// What a map may uncover.
     Disocclusion(Disocclusion),
+    /// What a display shows of a map.
+    SubCell(SubCell),
 }
 
 impl Content {
@@ -92,6 +95,7 @@ impl Content {
             Self::Layers(_) => "layers",
             Self::Objects(_) => "objects",
             Self::Disocclusion(_) => "disocclusion",
+            Self::SubCell(_) => "subcell",
         }
     }
 }

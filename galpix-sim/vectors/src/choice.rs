@@ -8,7 +8,7 @@ use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding,
 use crate::case::{Case, Content, GridSize};
 use crate::maps::{Picture, Random};
 use crate::run::{self, Model, Plan, RunError};
-use crate::{disocclusion, inpaint, layers, objects};
+use crate::{disocclusion, inpaint, layers, objects, sub_cell};
 
 /// Frames of a frame case.
 const FRAMES: u32 = 5;
@@ -128,6 +128,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     cases.extend(layers::cases(seed, &models)?);
     cases.extend(objects::cases(seed)?);
     cases.extend(disocclusion::cases(seed, &models)?);
+    cases.extend(sub_cell::cases(seed, &models)?);
     Ok(cases)
 }
 

@@ -4,7 +4,8 @@
 //! ```text
 //! which cases there are        what is in them   the core      what is written down   JSON, hex, hashes
 //! choice, inpaint, layers,  ─▶ maps           ─▶ run,       ─▶ case                ─▶ write
-//! objects, disocclusion                          layered
+//! objects, disocclusion,                         layered
+//! sub_cell
 //! ```
 //!
 //! [`arrivals`] has the rules of propagation and resolution once more, slow and short, to compare the core's passes
@@ -24,6 +25,7 @@ mod layers;
 mod maps;
 mod objects;
 mod run;
+mod sub_cell;
 mod write;
 
 pub use case::{Case, Manifest, schema};

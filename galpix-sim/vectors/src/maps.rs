@@ -1,6 +1,7 @@
 //! What the maps of the vectors hold: words drawn field by field, so that each bit follows from the record alone.
 
 use galpix_core::record::{Field, MAX_WORDS};
+use galpix_core::stages::threshold_for_depth;
 use galpix_core::{Class, Record};
 
 use crate::case::{GridSize, fields};
@@ -73,10 +74,15 @@ pub enum Picture {
     /// One surface whose cells creep apart by units of the last bits, so that in some frames they do not part and in
     /// more they do.
     Creep,
+    /// Surfaces whose depths differ by just as much as one surface may, or by one more, with debris and holes; offsets
+    /// anywhere, every other one small.
+    Surfaces,
+    /// The same with offsets at the limits of sub-cell scan-out: a 256th of a cell, three eighths, a half.
+    Limits,
 }
 
 impl Picture {
-    /// All of them but the last three, which are for inpainting and for disocclusion.
+    /// All of them but the last five, which are for inpainting, disocclusion and scan-out.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -110,6 +116,8 @@ impl Picture {
             Self::Tear => "tear",
             Self::Slide => "slide",
             Self::Creep => "creep",
+            Self::Surfaces => "surfaces",
+            Self::Limits => "limits",
         }
     }
 }
@@ -130,6 +138,8 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             Picture::Random => each_field(record, |name, field| random_field(name, field, record, random)),
             Picture::Extreme => each_field(record, |name, field| extreme_field(name, field, random)),
             Picture::Creep => each_field(record, |name, field| creeping_field(name, field, random)),
+            Picture::Surfaces => each_field(record, |name, field| surface_field(name, field, random)),
+            Picture::Limits => each_field(record, |name, field| limit_field(name, field, random)),
             _ => drawn(picture, record, [x, y], [columns, rows], random),
         };
         for (word, value) in words.iter().take(record.words()).enumerate() {
@@ -176,6 +186,29 @@ fn creeping_field(name: &str, field: Field, random: &mut Random) -> i32 {
         "acceleration_x" | "acceleration_y" => random.signed(bits.min(1)),
         _ if name.starts_with("velocity") => random.signed(bits.min(5)),
         _ => random.signed(bits),
+    }
+}
+
+fn surface_field(name: &str, field: Field, random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    match name {
+        "class" => [0, 0, 0, 0, 0, 0, 0, 0, 1, 2, 3][random.below(11) as usize],
+        "depth" => {
+            let threshold = threshold_for_depth(bits) as i32;
+            [0, 0, threshold, threshold, threshold + 1, 2 * threshold][random.below(6) as usize]
+        }
+        "offset_x" | "offset_y" => random.signed(bits) >> random.below(2),
+        _ => random.signed(bits),
+    }
+}
+
+fn limit_field(name: &str, field: Field, random: &mut Random) -> i32 {
+    match name {
+        "offset_x" | "offset_y" => {
+            let parts = [0, 1, -1, 96, -96, 97, -97, 127, -128][random.below(9) as usize];
+            parts << u32::from(field.bits).saturating_sub(8)
+        }
+        _ => surface_field(name, field, random),
     }
 }
 

@@ -1,9 +1,9 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
 //! `proof_*` must reach no panic, no multiplication, no division and no float, but for those that inpaint, go over
-//! layers, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no panic. `planted_*`
-//! each reach one of these on purpose, so that the inspection is seen to find it. All arguments are opaque to the
-//! optimiser: maps, scratch memory and settings come from outside.
+//! layers, resample rows, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no
+//! panic. `planted_*` each reach one of these on purpose, so that the inspection is seen to find it. All arguments are
+//! opaque to the optimiser: maps, scratch memory and settings come from outside.
 
 #![no_std]
 
@@ -15,7 +15,7 @@ use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
 use galpix_core::{
     Bits, Controller, Demand, Galpixmap, Inpainting, Layout, Profile, Rounding, Scratch, Settings, Static, Tally,
-    scan_out, stages,
+    scan_out, stages, sub_cell,
 };
 
 /// A panel of up to 512 pixels a side.
@@ -152,7 +152,15 @@ macro_rules! passes {
                 }
             }
 
-            /// The same under an overlay.
+            /// The same, resampled by the offsets.
+            #[unsafe(export_name = concat!("proof_sub_cell_", stringify!($name)))]
+            pub fn sub_cell(map: &Galpixmap<'_, Format>, edge_threshold: u32, y: u32, line: &mut [u16]) {
+                for (word, colour) in line.iter_mut().zip(sub_cell::row(map, edge_threshold, y)) {
+                    *word = colour as u16;
+                }
+            }
+
+            /// The row as it is, under an overlay.
             #[unsafe(export_name = concat!("proof_overlay_", stringify!($name)))]
             pub fn overlay(
                 map: &Galpixmap<'_, Format>,

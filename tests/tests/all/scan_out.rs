@@ -9,10 +9,13 @@ use embedded_graphics::pixelcolor::{self, PixelColor, RgbColor, raw::RawU16};
 use embedded_graphics::prelude::{Drawable, GrayColor, IntoStorage};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use galpix_core::scan_out::{self, PanelColour, View};
-use galpix_core::{Bits, Colour, Dynamic, Galpixel, Galpixmap, Layout, Margin};
+use galpix_core::overlay::Overlay;
+use galpix_core::scan_out::{self, Over, PanelColour, View};
+use galpix_core::sub_cell::{self, SubCell};
+use galpix_core::{Bits, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Layout, Margin};
 use galpix_tests::memory::{Shape, with_maps};
 use galpix_tests::profiles::{PAPER, SCENE, SLIDE, dynamic};
+use galpix_tests::random;
 
 /// A display that takes contiguous areas and nothing else.
 struct Panel<C> {
@@ -235,4 +238,50 @@ fn rows_are_the_displays_rows() {
             }
         });
     }
+}
+
+/// A view that is resampled shows the resampled rows: as a whole, in bands of every height, in parts of its rows. An
+/// overlay over them keeps every bit.
+#[test]
+fn resampled_views_show_the_resampled_rows() {
+    let (format, shape) = (dynamic(Layout::FULL, PAPER), Shape::new(37, 6, [2, 1, 1, 3]));
+    let sampling = SubCell { edge_threshold: 1 << 28 };
+    let content = random::words(7, format.record().words() * shape.cells() as usize);
+    with_maps(shape, format, Some(&content), |map, _| {
+        let pixel = |word| Some(pixelcolor::Rgb888::of_word(word));
+        let whole: Vec<u32> = (0..shape.height).flat_map(|y| sub_cell::row(&map, sampling.edge_threshold, y)).collect();
+        assert!(
+            whole.iter().copied().ne((0..shape.height).flat_map(|y| scan_out::row(&map, y))),
+            "nothing to resample"
+        );
+        let pixels: Vec<_> = whole.iter().copied().map(pixel).collect();
+        for rows in 1..=shape.height {
+            let mut panel = Panel::new(shape.width, shape.height);
+            for top in (0..shape.height).step_by(rows as usize) {
+                let band = View::band(&map, top, rows).sampled(sampling);
+                Image::new(&band, Point::new(0, top as i32)).draw(&mut panel).unwrap();
+            }
+            assert!(panel.pixels == pixels, "bands of {rows}");
+        }
+        let area = Rectangle::new(Point::new(15, 1), Size::new(19, 4));
+        let mut panel = Panel::<pixelcolor::Rgb888>::new(19, 4);
+        View::new(&map).sampled(sampling).draw_sub_image(&mut panel, &area).unwrap();
+        let part = (1..5).flat_map(|y| (15..34).map(move |x| y * 37 + x)).map(|at| pixels[at]);
+        assert!(panel.pixels.iter().copied().eq(part));
+
+        let mut starts = vec![0; 3];
+        let grid = Grid::new(5, 3, Margin::NONE, &mut starts).unwrap();
+        let mut memory = vec![0; Overlay::words(&grid)];
+        let mut overlay = Overlay::new(grid, Colour::RGB888, &mut memory).unwrap().at(34, 2);
+        overlay.pin(1, 2, [1, 2, 3]);
+        overlay.pin(4, 0, [4, 5, 6]);
+        let mut under = whole;
+        under[4 * 37 + 35] = 0x01_02_03;
+        let rows =
+            (0..shape.height).flat_map(|y| (&overlay).over(sub_cell::row(&map, sampling.edge_threshold, y), y, 0));
+        assert!(rows.eq(under.iter().copied()));
+        let mut panel = Panel::new(shape.width, shape.height);
+        View::new(&map).under(&overlay).sampled(sampling).draw(&mut panel).unwrap();
+        assert!(panel.pixels.iter().copied().eq(under.into_iter().map(pixel)));
+    });
 }

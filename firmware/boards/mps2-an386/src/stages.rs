@@ -4,7 +4,9 @@ use core::hint::black_box;
 
 use galpix_core::rolling::{self, Rolling};
 use galpix_core::stages::{fill, mark, sweep};
-use galpix_core::{Controller, FillMode, Galpixmap, Grid, Profile, Scratch, Settings, Static, Tally, scan_out};
+use galpix_core::{
+    Controller, FillMode, Galpixmap, Grid, Profile, Scratch, Settings, Static, Tally, scan_out, sub_cell,
+};
 
 use crate::bench::Bench;
 use crate::inpainting::Counts;
@@ -23,6 +25,7 @@ struct Ticks {
     fill: [u64; FillMode::ALL.len()],
     frame: u64,
     rolling: u64,
+    sub_cell: u64,
 }
 
 impl Bench {
@@ -59,6 +62,7 @@ impl Bench {
         }
         say(Row { stage: "frame", rung: FillMode::default().name(), ..row }, ticks.frame);
         say(Row { stage: "rolling", rung: FillMode::default().name(), ..row }, ticks.rolling);
+        say(Row { stage: "sub-cell", rung: FillMode::default().name(), ..row }, ticks.sub_cell);
         inpainted.print(row, self.grid.cells());
     }
 
@@ -104,6 +108,9 @@ impl Bench {
         let mut controller = Controller::new(front, back, scratch).expect("maps of one grid");
         controller.set_frame(black_box(frame));
         ticks.frame += clock.time(|| controller.step(black_box(&settings))).0;
+        let (map, threshold) = (controller.front(), black_box(settings.edge_threshold));
+        let row = |y| sub_cell::row(map, threshold, y).fold(0, u32::wrapping_add);
+        ticks.sub_cell += clock.time(|| (0..map.grid().display_height()).map(row).fold(0, u32::wrapping_add)).0;
     }
 
     fn constant_time<P: Profile>(&mut self, layout: &'static str, picture: Picture) {

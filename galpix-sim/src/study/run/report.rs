@@ -140,6 +140,8 @@ pub struct RunReport {
     pub fill: &'static str,
     /// Laplacian threshold, in units of the depth's last bit.
     pub edge_threshold: u32,
+    /// How cells became pixels.
+    pub scan_out: &'static str,
     /// Median over the frames.
     pub ns_per_galpixel: f64,
     /// What entered with the update.
