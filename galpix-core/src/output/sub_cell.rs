@@ -208,9 +208,9 @@ impl<F: Format> Rows<'_, '_, F> {
         }
         let mut inside = [0; RUN];
         self.bilinear(&around, run, &mut inside);
-        for (index, (colour, inside)) in run.iter_mut().zip(inside).enumerate() {
-            if inside == 0 {
-                self.silhouettes(&around, index, colour);
+        for index in 0..RUN {
+            if inside[index] == 0 {
+                self.silhouettes(&around, index, &mut run[index]);
             }
         }
     }
@@ -222,7 +222,7 @@ impl<F: Format> Rows<'_, '_, F> {
         let Around { above, row, below, right } = around;
         let format = self.map.record().colour_format();
         let end = self.end(Class::Galpixel) as i32;
-        for (index, (colour, inside)) in run.iter_mut().zip(inside).enumerate() {
+        for index in 0..RUN {
             let [l, c, r] = [index, index + 1, index + 2];
             // Keys and threshold have 30 bits, so that no difference overflows.
             let key = row.keys[c] as i32;
@@ -242,11 +242,11 @@ impl<F: Format> Rows<'_, '_, F> {
             let y = counted(vertical(keys), y, choose(to_top, above.down[c] as u32, below.down[c] as u32));
             let both = joins(corner(keys)) & (x * y + (WEIGHTS >> 1)) >> PARTS;
             // Each neighbour has a weight of its own; what is left of `WEIGHTS` is the cell's.
-            *colour = format.weighted(
+            run[index] = format.weighted(
                 [row.colours[c], side(&row.colours), vertical(colours), corner(colours)],
                 [WEIGHTS + both - x - y, x - both, y - both, both],
             );
-            *inside = joins(row.keys[l]) & joins(row.keys[r]) & joins(above.keys[c]) & joins(below.keys[c]);
+            inside[index] = joins(row.keys[l]) & joins(row.keys[r]) & joins(above.keys[c]) & joins(below.keys[c]);
         }
     }
 
@@ -256,23 +256,24 @@ impl<F: Format> Rows<'_, '_, F> {
         let Around { above, row, below, right } = around;
         let [l, c, r] = [index, index + 1, index + 2];
         let key = row.keys[c];
-        for (beside, place, own, its) in [
-            (row, l, right[c], right[l]),
-            (row, r, -right[c], -right[r]),
-            (above, c, row.down[c], above.down[c]),
-            (below, c, -row.down[c], -below.down[c]),
+        let of = |lanes: &Lanes, place: usize| (lanes.keys[place], lanes.colours[place]);
+        for ((its_key, its_colour), own, its) in [
+            (of(row, l), right[c], right[l]),
+            (of(row, r), -right[c], -right[r]),
+            (of(above, c), row.down[c], above.down[c]),
+            (of(below, c), -row.down[c], -below.down[c]),
         ] {
             // How far the nearer surface ends beyond the border of the two cells, towards this one.
-            let part = if self.covers(beside.keys[place], key) {
+            let part = if self.covers(its_key, key) {
                 its
-            } else if self.covers(key, beside.keys[place]) {
+            } else if self.covers(key, its_key) {
                 own
             } else {
                 continue;
             };
             if part > 0 {
                 let (format, part) = (self.map.record().colour_format(), part as u32);
-                *colour = format.weighted([*colour, beside.colours[place]], [WEIGHTS - part, part]);
+                *colour = format.weighted([*colour, its_colour], [WEIGHTS - part, part]);
             }
         }
     }
