@@ -58,7 +58,7 @@ impl Run {
     }
 }
 
-fn columns() -> [Column<FrameReport>; 13] {
+fn columns() -> [Column<FrameReport>; 16] {
     fn truth<V: Into<Value>>(frame: &FrameReport, of: fn(TruthReport) -> V) -> Value {
         frame.truth.map(of).into()
     }
@@ -68,10 +68,13 @@ fn columns() -> [Column<FrameReport>; 13] {
         column(|frame| truth(frame, |truth| truth.psnr_db)).terminal("psnr dB", 2),
         column(|frame| truth(frame, |truth| truth.psnr_hold_db)).terminal("hold", 2),
         column(|frame| truth(frame, |truth| truth.psnr_known_db)).terminal("known", 2),
+        column(|frame| truth(frame, |truth| truth.psnr_inside_db)).terminal("inside", 2),
         column(|frame| truth(frame, |truth| truth.ssim)).terminal("ssim", 4),
         column(|frame| truth(frame, |truth| truth.flip)).terminal("flip", 4),
         column(|frame| truth(frame, |truth| truth.missing)).terminal("missing", 0),
         column(|frame| truth(frame, |truth| truth.missing_at_border)).terminal("border", 0),
+        column(|frame| truth(frame, |truth| truth.change.and_then(|change| change.error))).terminal("change", 2),
+        column(|frame| truth(frame, |truth| truth.change.and_then(|change| change.judder_px))).terminal("judder", 3),
         column(|frame| frame.holes.into()).terminal("holes", 0),
         column(|frame| frame.bullets.into()).terminal("bullets", 0),
         column(|frame| frame.lost.into()).terminal("lost", 0),
@@ -83,7 +86,7 @@ fn columns() -> [Column<FrameReport>; 13] {
 fn table(report: &RunReport) -> String {
     let mut lines = vec![
         format!(
-            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes a galpixel, {} rounding, fill {}, \
+            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes per galpixel, {} rounding, fill {}, scan-out {}, \
              certified {:.4} px up to frame {}",
             printable(&report.source),
             report.width,
@@ -94,6 +97,7 @@ fn table(report: &RunReport) -> String {
             report.budget.stored_bytes_per_galpixel,
             report.rounding,
             report.fill,
+            report.scan_out,
             report.certificate.total_px,
             report.budget.prop
         ),

@@ -18,6 +18,7 @@ mod local;
 mod ssim;
 mod ssimulacra;
 pub mod stats;
+pub mod time;
 
 pub use local::{change, variance};
 

@@ -47,11 +47,17 @@ fn assert_report(report: &Value, frames: usize) {
         if truth.is_null() {
             continue;
         }
-        for key in ["psnr_db", "psnr_hold_db", "psnr_known_db", "ssim", "flip"] {
+        for key in ["psnr_db", "psnr_hold_db", "psnr_known_db", "psnr_inside_db", "ssim", "flip"] {
             assert!(is_number(&truth[key]), "frame {number}, {key}: {}", truth[key]);
         }
         for key in ["missing", "missing_at_border"] {
             assert!(truth[key].is_u64(), "frame {number}, {key}: {}", truth[key]);
+        }
+        // A change is against the frame before: the first one has no displacement to compare.
+        let change = truth.get("change").expect("change");
+        if !change.is_null() {
+            assert!(is_number(&change["error"]) && is_number(&change["truth"]), "frame {number}: {change}");
+            assert!(number > 1 || change["judder_px"].is_null(), "frame 1: {change}");
         }
     }
 }

@@ -1,34 +1,106 @@
 //! A frame compared with the truth: as a picture, and galpixel by galpixel.
 
-use super::report::{PositionReport, TruthReport};
+use super::report::{ChangeReport, PositionReport, TruthReport};
 use crate::engine::Frame;
 use crate::metric;
-use crate::metric::area;
+use crate::metric::{area, time};
 use crate::picture::Picture;
 use crate::source::Source;
 use crate::update::{Truth, Update};
 
-/// Compares a shown picture with the truth.
-#[must_use]
-pub fn compare(picture: &Picture, hold: &Picture, truth: &Truth, reached: &[bool], perceptual: bool) -> TruthReport {
-    let counted = |index: usize| truth.mask.as_ref().is_none_or(|mask| mask[index]);
-    let known: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| reached && counted(index)).collect();
-    let missing: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| !reached && counted(index)).collect();
-    let mask = truth.mask.as_deref();
-    let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {
-        perceptual.then(|| measure(picture, &truth.picture, mask)).flatten()
-    };
-    TruthReport {
-        psnr_db: metric::psnr_db(picture, &truth.picture, mask),
-        psnr_hold_db: metric::psnr_db(hold, &truth.picture, mask),
-        psnr_known_db: metric::psnr_db(picture, &truth.picture, Some(&known)),
-        ssim: perceptual(metric::ssim),
-        flip: perceptual(metric::flip),
-        missing: missing.iter().filter(|&&missing| missing).count() as u64,
-        missing_at_border: area::at_border(&missing, truth.picture.width, truth.picture.height)
-            .into_iter()
-            .filter(|&there| there)
-            .count() as u64,
+/// Which cells of a frame count, and for what.
+struct Cells {
+    /// Reached by a galpixel of the update.
+    known: Vec<bool>,
+    /// Missing in connection with the border: what enters there is known to nobody.
+    at_border: Vec<bool>,
+    /// All others, missing or not.
+    inside: Vec<bool>,
+    missing: usize,
+}
+
+impl Cells {
+    fn of(truth: &Truth, reached: &[bool]) -> Self {
+        let counted = |cell: usize| truth.mask.as_ref().is_none_or(|mask| mask[cell]);
+        let which = |of: &dyn Fn(usize) -> bool| -> Vec<bool> {
+            (0..reached.len()).map(|cell| counted(cell) && of(cell)).collect()
+        };
+        let missing = which(&|cell| !reached[cell]);
+        let at_border = area::at_border(&missing, truth.picture.width, truth.picture.height);
+        Self {
+            known: which(&|cell| reached[cell]),
+            inside: which(&|cell| !at_border[cell]),
+            missing: count(&missing),
+            at_border,
+        }
+    }
+}
+
+fn count(cells: &[bool]) -> usize {
+    cells.iter().filter(|&&cell| cell).count()
+}
+
+/// Compares the frames of a run with the truth, one after the other.
+pub(super) struct Comparison<'h> {
+    /// The update's picture.
+    hold: &'h Picture,
+    /// Whether SSIM, FLIP and the changes are worked out too.
+    perceptual: bool,
+    before: Before,
+}
+
+/// The last frame whose truth is known.
+struct Before {
+    frame: u32,
+    shown: Picture,
+    truth: Picture,
+    inside: Vec<bool>,
+    displacements: Vec<Option<[f64; 2]>>,
+}
+
+impl<'h> Comparison<'h> {
+    /// Begins with the update, which shows the truth.
+    pub(super) fn new(hold: &'h Picture, perceptual: bool) -> Self {
+        let inside = vec![true; hold.pixels.len()];
+        let before = Before { frame: 0, shown: hold.clone(), truth: hold.clone(), inside, displacements: Vec::new() };
+        Self { hold, perceptual, before }
+    }
+
+    /// Compares a shown picture with the truth. `reached`: whether a galpixel of the update reached each cell.
+    pub(super) fn frame(&mut self, frame: u32, picture: &Picture, truth: &Truth, reached: &[bool]) -> TruthReport {
+        let cells = Cells::of(truth, reached);
+        let mask = truth.mask.as_deref();
+        let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {
+            self.perceptual.then(|| measure(picture, &truth.picture, mask)).flatten()
+        };
+        TruthReport {
+            psnr_db: metric::psnr_db(picture, &truth.picture, mask),
+            psnr_hold_db: metric::psnr_db(self.hold, &truth.picture, mask),
+            psnr_known_db: metric::psnr_db(picture, &truth.picture, Some(&cells.known)),
+            psnr_inside_db: metric::psnr_db(picture, &truth.picture, Some(&cells.inside)),
+            ssim: perceptual(metric::ssim),
+            flip: perceptual(metric::flip),
+            missing: cells.missing as u64,
+            missing_at_border: count(&cells.at_border) as u64,
+            change: if self.perceptual { self.change(frame, picture, truth, cells) } else { None },
+        }
+    }
+
+    /// Compares the change from the frame before with the true one. `None` if the truth of that frame is not known.
+    fn change(&mut self, frame: u32, shown: &Picture, truth: &Truth, cells: Cells) -> Option<ChangeReport> {
+        let displacements = time::displacements(shown, &truth.picture, Some(&cells.known));
+        let (shown, truth) = (shown.clone(), truth.picture.clone());
+        let now = Before { frame, shown, truth, inside: cells.inside, displacements };
+        let before = std::mem::replace(&mut self.before, now);
+        let now = &self.before;
+        (now.frame == before.frame + 1).then(|| {
+            let both: Vec<bool> = before.inside.iter().zip(&now.inside).map(|(&before, &now)| before && now).collect();
+            ChangeReport {
+                error: time::change_error([&before.shown, &now.shown], [&before.truth, &now.truth], Some(&both)),
+                truth: metric::change(&before.truth, &now.truth, Some(&both)),
+                judder_px: time::judder(&before.displacements, &now.displacements),
+            }
+        })
     }
 }
 

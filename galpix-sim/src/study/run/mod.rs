@@ -7,9 +7,9 @@ mod work;
 use galpix_core::{Format, Tally};
 
 pub use super::job::{ExperimentError, Request, check_strategy};
-pub use compare::compare;
+use compare::Comparison;
 pub(crate) use compare::position;
-pub use report::{BudgetReport, FrameReport, PositionReport, RunReport, TruthReport};
+pub use report::{BudgetReport, ChangeReport, FrameReport, PositionReport, RunReport, TruthReport};
 pub use work::work_gain;
 
 use super::job::Job;
@@ -51,6 +51,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     let carried = job.carried()?;
     let hidden: Vec<HiddenLayer<'_>> = carried.layers.iter().map(hidden::Layer::for_engine).collect();
     let hold = update.picture();
+    let mut comparison = Comparison::new(&hold, request.perceptual);
     let mut reports = Vec::with_capacity(*frames as usize);
     let ran = job.engine().run_layers(&carried.base, &hidden, *frames, |frame| {
         let picture = frame.picture();
@@ -58,7 +59,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         let reached = frame.reached();
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
-            let truth = truth.map(|truth| compare(&picture, &hold, &truth, &reached, request.perceptual));
+            let truth = truth.map(|truth| comparison.frame(frame.number, &picture, &truth, &reached));
             let position = compare::position(source, update, frame, |origin| carried.first(origin));
             let report = report(frame, position, truth);
             let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;

@@ -65,6 +65,8 @@ pub struct TruthReport {
     pub psnr_hold_db: Option<f64>,
     /// Of the cells that a galpixel of the update reached.
     pub psnr_known_db: Option<f64>,
+    /// Of the cells that are not missing in connection with the border: what enters there is known to nobody.
+    pub psnr_inside_db: Option<f64>,
     /// Structural similarity.
     pub ssim: Option<f64>,
     /// Mean FLIP.
@@ -73,6 +75,20 @@ pub struct TruthReport {
     pub missing: u64,
     /// Of these, how many are connected with the border: what enters the picture.
     pub missing_at_border: u64,
+    /// Against the frame before, where its truth is known too.
+    pub change: Option<ChangeReport>,
+}
+
+/// How a frame differs from the one before, against how the truths differ: over the cells that are inside in both.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ChangeReport {
+    /// Mean of |change shown - true change| of luma, in code values: the temporal error.
+    pub error: Option<f64>,
+    /// Mean of |true change| of luma.
+    pub truth: Option<f64>,
+    /// Root mean square change of the displacement of blocks of 16x16 cells against the truth, in pixels; not of the
+    /// first frame.
+    pub judder_px: Option<f64>,
 }
 
 /// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each
