@@ -10,7 +10,8 @@ use crate::picture::Picture;
 /// The side of a block whose displacement is estimated, in cells.
 const BLOCK: usize = 16;
 
-/// The least eigenvalue of a block's gradients, code values squared per cell: with less texture a displacement is noise.
+/// The least eigenvalue of a block's gradients, code values squared per cell: with less texture a displacement is
+/// noise.
 const TEXTURE: f64 = 4.0;
 
 /// The part of a block that must count.
