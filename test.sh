@@ -142,12 +142,14 @@ step_codegen() {
 # docs/spec.md alone.
 step_model() {
     command -v python3 >/dev/null || { skip "python3 is not installed"; return; }
-    local seed
+    local seed check checks=()
     for seed in 0 1 2; do
         cargo run --locked --quiet --release -- vectors --seed "$seed" --out "target/vectors/$seed"
         PYTHONDONTWRITEBYTECODE=1 python3 tests/model/check_vectors.py "target/vectors/$seed" \
-            "$([ "$seed" = 0 ] && echo --require-all-rules || echo --)"
+            "$([ "$seed" = 0 ] && echo --require-all-rules || echo --)" &
+        checks+=($!)
     done
+    for check in "${checks[@]}"; do wait "$check"; done
 }
 
 # The quick form of tests/proofs/run.sh: a solver on the paper's example, and a planted fault for each stage.
@@ -228,8 +230,21 @@ run_step() {
     summary+=("$(printf '%-13s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
 }
 
+# Prints what a step printed while others ran, and counts how it ended.
+collect() {
+    local log="$1" line
+    cat "$log"
+    line="$(tail -n 1 "$log.summary" || echo "$concurrent: FAILED, it ended without a summary")"
+    summary+=("$line")
+    case "$line" in
+        *passed) passed=$((passed + 1)) ;;
+        *skipped:*) skipped=$((skipped + 1)) ;;
+        *) failed=$((failed + 1)) ;;
+    esac
+}
+
 main() {
-    local name chosen=("$@")
+    local name concurrent log chosen=("$@")
     if [ "${1:-}" = --list ]; then
         printf '%s\n' "${STEPS[@]}"
         return
@@ -240,7 +255,20 @@ main() {
         [[ " ${STEPS[*]} ${QUICK[*]} " == *" $name "* ]] || { echo "there is no step \"$name\": ./test.sh --list names them" >&2; exit 2; }
     done
     install_missing
-    for name in "${chosen[@]}"; do run_step "$name"; done
+    # The firmware is a workspace of its own, with its own target folder: it runs while the others do.
+    concurrent=""
+    [[ "${#chosen[@]}" = 1 || " ${chosen[*]} " != *" firmware "* ]] || concurrent=firmware
+    if [ -n "$concurrent" ]; then
+        log="$(mktemp)"
+        say "$concurrent: runs while the other steps do, and is printed after them"
+        { run_step "$concurrent"; printf '%s\n' "${summary[@]}" >"$log.summary"; } >"$log" 2>&1 &
+    fi
+    for name in "${chosen[@]}"; do [ "$name" = "$concurrent" ] || run_step "$name"; done
+    if [ -n "$concurrent" ]; then
+        wait
+        collect "$log"
+        rm -f "$log" "$log.summary"
+    fi
     printf '\n'
     printf '%s\n' "${summary[@]}"
     printf '%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped"
