@@ -15,6 +15,7 @@
 
 pub mod area;
 mod local;
+mod plane;
 mod ssim;
 mod ssimulacra;
 pub mod stats;

@@ -3,6 +3,7 @@
 //! A picture may be near the truth in each frame and still be unrest to look at: what stands still for three frames and
 //! then jumps by a cell is off by at most half a cell in each. Both figures here are of two frames in succession.
 
+use super::plane::{Gaussian, Plane};
 use super::{comparable, counts, luma};
 use crate::metric::stats::mean;
 use crate::picture::Picture;
@@ -17,8 +18,15 @@ const TEXTURE: f64 = 4.0;
 /// The part of a block that must count.
 const COUNTED: f64 = 0.9;
 
-/// Half the taps of the Gaussian, of deviation 1, that is applied before gradients are taken.
-const TAPS: usize = 4;
+/// What is applied before gradients are taken.
+const GAUSSIAN: Gaussian = Gaussian { radius: 4, sigma: 1.0, mirrored };
+
+/// Returns an index brought back into `0 .. length` by mirrors at the cells of both ends (`… 2 1 0 1 2 …`).
+fn mirrored(index: isize, length: usize) -> usize {
+    let period = 2 * (length as isize - 1).max(1);
+    let within = index.rem_euclid(period);
+    within.min(period - within).min(length as isize - 1) as usize
+}
 
 /// Returns the mean over the counted cells of |(shown now - shown before) - (true now - true before)| of luma, in code
 /// values: 0 where the shown picture changes as the truth does. Pictures are given as `[before, now]`.
@@ -44,10 +52,7 @@ pub fn displacements(shown: &Picture, truth: &Picture, counted: Option<&[bool]>)
         return Vec::new();
     }
     let (width, height) = (truth.width, truth.height);
-    let [shown, truth] = [shown, truth].map(|picture| {
-        let lumas: Vec<f64> = picture.pixels.iter().map(luma).collect();
-        blurred(&lumas, width, height)
-    });
+    let [shown, truth] = [shown, truth].map(|picture| Plane::luma(picture).blurred(&GAUSSIAN).cells);
     let blocks = (0..height / BLOCK).flat_map(|y| (0..width / BLOCK).map(move |x| (x * BLOCK, y * BLOCK)));
     blocks.map(|corner| displacement([&shown, &truth], (width, height), counted, corner)).collect()
 }
@@ -86,27 +91,6 @@ fn displacement(
     let least = trace / 2.0 - (trace * trace / 4.0 - determinant).max(0.0).sqrt();
     (least > TEXTURE * area && cells > COUNTED * area)
         .then(|| [-(yy * xe - xy * ye) / determinant, -(xx * ye - xy * xe) / determinant])
-}
-
-/// Applies a Gaussian of deviation 1 along rows and columns, mirrored at the border cells.
-fn blurred(values: &[f64], width: usize, height: usize) -> Vec<f64> {
-    let weights: [f64; TAPS + 1] = std::array::from_fn(|tap| (-((tap * tap) as f64) / 2.0).exp());
-    let sum = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
-    // A side may be shorter than the Gaussian is wide: mirrored as often as it takes.
-    let mirrored = |at: usize, by: isize, length: usize| {
-        let period = 2 * (length as isize - 1).max(1);
-        let at = (at as isize + by).rem_euclid(period);
-        at.min(period - at).min(length as isize - 1) as usize
-    };
-    let along = |values: &[f64], at: &dyn Fn(usize, isize) -> usize| -> Vec<f64> {
-        let cell = |cell: usize| {
-            let tap = |tap: usize| values[at(cell, tap as isize)] + values[at(cell, -(tap as isize))];
-            (weights[0] * values[cell] + (1..=TAPS).map(|i| weights[i] * tap(i)).sum::<f64>()) / sum
-        };
-        (0..values.len()).map(cell).collect()
-    };
-    let rows = along(values, &|cell, by| cell - cell % width + mirrored(cell % width, by, width));
-    along(&rows, &|cell, by| mirrored(cell / width, by, height) * width + cell % width)
 }
 
 #[cfg(test)]
@@ -176,8 +160,8 @@ mod tests {
     #[test]
     fn a_blur_keeps_what_is_even_and_any_size() {
         for (width, height) in [(1, 1), (1, 9), (2, 3), (20, 1)] {
-            let even = vec![7.0; width * height];
-            assert!(blurred(&even, width, height).iter().all(|value| (value - 7.0).abs() < 1e-12), "{width}x{height}");
+            let even = Plane::of(width, height, |_| 7.0).blurred(&GAUSSIAN);
+            assert!(even.cells.iter().all(|value| (value - 7.0).abs() < 1e-12), "{width}x{height}");
         }
     }
 }
