@@ -1,9 +1,8 @@
 //! A picture in memory: what a renderer delivers, what a display shows, what a truth looks like.
 
-use std::io::Cursor;
 use std::path::Path;
 
-use png::{BitDepth, ColorType, Compression, Transformations};
+use png::{BitDepth, ColorType, Compression};
 
 /// An 8-bit sRGB picture, rows from top to bottom, `width * height` pixels.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,25 +54,6 @@ impl Picture {
         writer.write_image_data(self.bytes())?;
         writer.finish()?;
         Ok(bytes)
-    }
-
-    /// Reads a PNG of any colour type as 8 bits a channel; alpha is left out.
-    ///
-    /// *Errors:* bytes that are no whole PNG.
-    pub fn from_png(bytes: &[u8]) -> std::io::Result<Self> {
-        let mut decoder = png::Decoder::new(Cursor::new(bytes));
-        decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
-        let mut reader = decoder.read_info()?;
-        let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
-        let frame = reader.next_frame(&mut samples)?;
-        let channels = frame.color_type.samples();
-        let colour = |pixel: &[u8]| match *pixel {
-            [red, green, blue, ..] => [red, green, blue],
-            [grey, ..] => [grey; 3],
-            [] => [0; 3],
-        };
-        let pixels = samples[..frame.buffer_size()].chunks_exact(channels).map(colour).collect();
-        Ok(Self { width: frame.width as usize, height: frame.height as usize, pixels })
     }
 
     /// Writes the picture as an 8-bit PNG, whole or not at all.

@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use galpix_sim::picture::Picture;
+use galpix_sim::source::capture;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -45,10 +46,9 @@ fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).expect("UTF-8")
 }
 
-/// Returns the picture in a PNG.
+/// Returns the picture in a file.
 fn picture(path: &Path) -> Picture {
-    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    Picture::from_png(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    capture::picture(path).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Returns standard output of a call that succeeds.

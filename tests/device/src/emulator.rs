@@ -7,6 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use galpix_sim::picture::Picture;
+use galpix_sim::source::capture;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -113,8 +114,7 @@ impl Emulator {
             "execute": "screendump",
             "arguments": { "filename": file.display().to_string(), "format": "png" }
         }))?;
-        let screen = std::fs::read(&file)
-            .and_then(|bytes| Picture::from_png(&bytes))
+        let screen = capture::picture(&file)
             .map_err(|error| Failure::new(format!("the emulator's screen cannot be read: {error}")))?;
         self.board.pixels(&screen)
     }

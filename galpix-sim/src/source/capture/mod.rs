@@ -37,6 +37,7 @@ use serde::Serialize;
 pub use acceleration::AccelerationPolicy;
 pub use error::CaptureError;
 
+use crate::picture::Picture;
 use crate::update::{Truth, Update};
 use camera::Distance;
 use manifest::Manifest;
@@ -96,6 +97,13 @@ struct Opened<'c> {
     size: Size,
     /// Of each cell; nothing if there is no depth at all.
     distances: &'c Option<Vec<Distance>>,
+}
+
+/// Reads a colour picture of a capture: PNG, JPEG, or EXR with plain or `Combined` colours.
+///
+/// *Errors:* a file that cannot be read, is damaged, or is no such picture.
+pub fn picture(file: &Path) -> Result<Picture, CaptureError> {
+    colour::read(&Source::open(file)?, None, None)
 }
 
 /// Reads a capture from its manifest, or from the folder that holds a `capture.toml`.
