@@ -189,10 +189,10 @@ mod check {
 
     /// Asserts that a mask holds the cells that the map of extents covers.
     pub(super) fn cover<F: Format>(front: &Galpixmap<'_, F>, mask: &[u32], tally: &Tally, reach: &Reach) {
-        let cells = front.grid().cells() as usize;
         if !due(front.grid().cells()) {
             return;
         }
+        let cells = front.grid().cells() as usize;
         let (extents, expected) = expected(front, vec![0; cells], reach);
         assert_eq!(*tally, expected, "the counts of the cells that are covered");
         let made = |cell: usize| mask[cell / 32] >> (cell % 32) & 1 != 0;

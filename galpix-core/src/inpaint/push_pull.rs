@@ -1,8 +1,7 @@
 //! Push-pull: known cells are pulled up into ever coarser levels, and what is missing is pushed down from them.
 //!
-//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]. Where a step
-//! leaves 2 % of 1024 x 1024 cells as holes, the classic push-pull takes 0.8 ns per cell by it and 2.5 with all cells
-//! of all levels, the depth-aware one with gamma 0 1.6 and 2.9 (`docs/inpainting.md`, sparse and dense).
+//! The arithmetic is in [`super::kernel`]. Only what the holes need is worked out, see [`super::lazy`]; how long that
+//! takes by the share of holes is in `docs/notes/inpainting.md`.
 
 use super::kernel::{Known, below, each, pulled, sampled};
 use super::lazy::{Base, Lazy};
