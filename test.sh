@@ -9,7 +9,8 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
-[ -z "${CI:-}" ] || export CARGO_INCREMENTAL=0
+# Each crate is built once here: what incremental builds write would be half of the disk that the whole takes.
+export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)

@@ -11,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 export CARGO_TERM_COLOR="${CARGO_TERM_COLOR:-auto}"
-[ -z "${CI:-}" ] || export CARGO_INCREMENTAL=0
+export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 export CARGO_TARGET_DIR="$PWD/target"
 
 # The same emulated machine runs what is compiled for all three.
