@@ -128,6 +128,13 @@ pub enum SetupError {
         /// Rows.
         height: u32,
     },
+    /// The layers of stationary sources have more samples than there are numbers for.
+    TooManySamples {
+        /// Samples of all layers, a cell each.
+        samples: u64,
+        /// Largest possible number.
+        most: u32,
+    },
     /// Two maps that work together have different grids.
     GridsDiffer,
     /// The operation identifies objects by their tags, and the layout has no tag.
@@ -144,6 +151,11 @@ impl fmt::Display for SetupError {
                 f,
                 "a map of {width}x{height} cells cannot be made: both sides must be 1 to 32768, margin included, and \
                  the cells at most 2^28"
+            ),
+            Self::TooManySamples { samples, most } => write!(
+                f,
+                "{samples} samples of all layers are more than the {most} that can be numbered: use a smaller map, or \
+                 fewer layers"
             ),
             Self::GridsDiffer => f.write_str("the two maps have different grids: make both over the same one"),
             Self::NoTag => f.write_str(

@@ -75,6 +75,7 @@ pub mod disocclusion;
 pub mod inpaint;
 pub mod layers;
 pub mod objects;
+pub mod source;
 
 /// The parts of a format: components of a budget, channels of a colour, fields and arithmetic of a record.
 pub mod record {

@@ -22,6 +22,9 @@ use crate::frame::{self, Scratch, Settings, reference};
 use crate::inpaint::{Inpainting, Metamer, PushPull, map, quads};
 use crate::layers::{self, Layers};
 use crate::map::Galpixmap;
+use crate::source::cracks::Closed;
+use crate::source::row::{self, Finish, GatherRow};
+use crate::source::{self, Gather, Source, Sources, Visibility};
 use rolling::Rolling;
 
 /// Whether loops over neighbours become vector code on the target. Selects the form of a pass; results do not depend on
@@ -81,6 +84,58 @@ pub(crate) fn fill_bullets<F: Format>(
     #[cfg(feature = "check")]
     check::fill_bullets(back, scratch, reach, tally);
     fill::fill_bullets(back, scratch, reach, tally);
+}
+
+/// Steps and shows the samples of a layer, see [`source::scatter`].
+pub(crate) fn scatter<F: Format>(
+    source: &mut Source<'_, F>,
+    visibility: &mut Visibility<'_>,
+    first: u32,
+    edge_threshold: u32,
+    step: Option<(Rounding, u32)>,
+) -> Tally {
+    if VECTORS {
+        wide::source::scatter::scatter(source, visibility, first, edge_threshold, step)
+    } else {
+        source::scatter(source, visibility, first, edge_threshold, step)
+    }
+}
+
+/// Closes cracks, see [`source::cracks::close`].
+pub(crate) fn close_cracks<F: Format>(
+    sources: &[Source<'_, F>],
+    visibility: &mut Visibility<'_>,
+    threshold: i32,
+) -> Closed {
+    if VECTORS {
+        wide::source::cracks::close(sources, visibility, threshold)
+    } else {
+        source::cracks::close(sources, visibility, threshold)
+    }
+}
+
+/// Gathers the colours of the cells of a row that show a sample, see [`row::gather_row`].
+pub(crate) fn gather_row<F: Format>(
+    layers: &[Source<'_, F>],
+    visibility: &Visibility<'_>,
+    start: u32,
+    gather: &GatherRow,
+    colours: &mut [u32],
+) {
+    if VECTORS {
+        wide::source::gather::gather_row(layers, visibility, start, gather, colours);
+    } else {
+        row::gather_row(layers, visibility, start, gather, colours);
+    }
+}
+
+/// Finishes a row, see [`row::finish_row`].
+pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &mut [u32]) {
+    if VECTORS {
+        wide::source::finish::finish(sources, finish, colours);
+    } else {
+        row::finish_row(sources, finish, colours);
+    }
 }
 
 /// Makes the next frame of a map in place, see [`Rolling::step`].
@@ -147,6 +202,32 @@ passes! {
         layers::make::<Self, true>;
     fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
     fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
+    fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = source::link;
+    fn sources_draw(
+        layers: &mut [Source<'_, Self>],
+        visibility: &mut Visibility<'_>,
+        edge_threshold: u32,
+        step: Option<(Rounding, u32)>,
+    ) -> Tally = source::draw;
+    fn sources_gather(
+        sources: &Sources<'_, '_, Self>,
+        y: u32,
+        gather: Gather,
+        colours: &mut [u32],
+    ) -> u32 = row::gather;
+    fn sources_known(
+        sources: &Sources<'_, '_, Self>,
+        y: u32,
+        known: &mut [u32],
+        depths: &mut [u32],
+    ) = row::known;
+    fn sources_finish(
+        sources: &Sources<'_, '_, Self>,
+        y: u32,
+        edge_threshold: u32,
+        gathered: [&[u32]; 3],
+        colours: &mut [u32],
+    ) = row::finish;
     fn push_pull(
         map: &mut Galpixmap<'_, Self>,
         inpainting: &Inpainting<'_>,

@@ -18,7 +18,7 @@ pub struct Channel {
 impl Channel {
     /// Returns the level of this channel in a colour word.
     #[inline(always)]
-    const fn of(self, colour: u32) -> u32 {
+    pub(crate) const fn of(self, colour: u32) -> u32 {
         (colour >> self.shift) & ((1 << self.bits) - 1)
     }
 }
@@ -117,6 +117,12 @@ impl Colour {
         self.channels[channel].bits
     }
 
+    /// Returns the channels. Those of a gray format are all the same.
+    #[inline(always)]
+    pub(crate) const fn three_channels(&self) -> [Channel; 3] {
+        self.channels
+    }
+
     /// Returns the bits of the narrowest channel. One step of luminosity is one step of that channel, and a power of
     /// two of steps of a wider one.
     #[inline(always)]
@@ -199,6 +205,29 @@ impl Colour {
         let pair = |colour| first.of(colour) << 16 | third.of(colour);
         let outer = sum_of(colours, weights, HALVES << 16 | HALVES, pair);
         outer >> (16 + LOG) << first.shift | middle | (outer & 0xffff) >> LOG << third.shift
+    }
+
+    /// Returns whether a colour word may be a mixture of two others, with an eighth of the second one at least: each
+    /// channel lies between theirs or equals one of them.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn is_mixture(&self, colour: u32, [first, second]: [u32; 2]) -> bool {
+        self.channels().all(|channel| {
+            let [level, first, second] = [channel.of(colour), channel.of(first), channel.of(second)];
+            let (part, whole) = if second < first {
+                (first as i32 - level as i32, first - second)
+            } else {
+                (level as i32 - first as i32, second - first)
+            };
+            part << 3 >= whole as i32 && part <= whole as i32
+        })
+    }
+
+    /// Returns the sum over the channels of the differences of two colour words.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn distance(&self, a: u32, b: u32) -> u32 {
+        self.channels().map(|channel| channel.of(a).abs_diff(channel.of(b))).sum()
     }
 
     /// Returns the colour word after adding `steps` of luminosity, each channel clamped to its range.

@@ -33,6 +33,7 @@ mod shown;
 mod stationary;
 
 pub use layer::{Layer, composite_words};
+pub(crate) use stationary::displacement;
 pub use stationary::{Displacement, Stationary, displacement_word};
 
 use crate::error::SetupError;

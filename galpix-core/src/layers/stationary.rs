@@ -30,7 +30,7 @@ pub fn displacement_word([x, y]: Displacement) -> u32 {
 
 /// Returns the displacement of a word.
 #[inline(always)]
-pub(super) const fn displacement(word: u32) -> Displacement {
+pub(crate) const fn displacement(word: u32) -> Displacement {
     [(word << 16) as i32 >> 16, word as i32 >> 16]
 }
 

@@ -208,6 +208,16 @@ impl<'p, F: Format> Galpixmap<'p, F> {
         }
     }
 
+    /// Returns a field of a cell as an unsigned number; 0 outside of the map.
+    #[inline(always)]
+    pub(crate) fn unsigned(&self, field: Field, cell: u32) -> u32 {
+        let ((upper, lower), cell) = (field.words(), cell as usize);
+        match (self.planes[upper].get(cell), self.planes[lower].get(cell)) {
+            (Some(&upper), Some(&lower)) => field.extract().unsigned(upper, lower),
+            _ => 0,
+        }
+    }
+
     /// Returns whether some cells are all empty.
     #[inline(always)]
     pub(crate) fn all_empty(&self, cells: Range<usize>) -> bool {

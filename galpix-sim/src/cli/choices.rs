@@ -3,8 +3,8 @@
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
-use crate::engine::ScanOut;
 use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
+use crate::engine::{ScanOut, Scheme};
 use crate::source::capture::{AccelerationPolicy, ImportOptions};
 use crate::source::hidden::Strategy;
 use crate::study::job::Request;
@@ -71,11 +71,29 @@ impl From<FillChoice> for Fill {
     }
 }
 
-/// What a pixel shows of the galpixels around it.
+/// How galpixels move.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub enum SchemeChoice {
+    /// From map to map: the paper's galpixmap
+    #[default]
+    Map,
+    /// They stay where the update put them, and each frame finds out where they are seen
+    Source,
+}
+
+impl From<SchemeChoice> for Scheme {
+    fn from(choice: SchemeChoice) -> Self {
+        match choice {
+            SchemeChoice::Map => Self::Map,
+            SchemeChoice::Source => Self::Source,
+        }
+    }
+}
+
+/// What a pixel shows of the galpixels around it.
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ScanOutChoice {
     /// The colour of its own cell
-    #[default]
     Nearest,
     /// Colours of its surface resampled by where in their cells the galpixels are, silhouettes by coverage
     SubCell,
@@ -196,9 +214,12 @@ pub struct Extrapolation {
     /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
     #[arg(long, value_name = "PART", value_parser = part)]
     pub edge_threshold: Option<f64>,
-    /// How cells become pixels
-    #[arg(long, value_enum, value_name = "MODE", default_value_t)]
-    pub scan_out: ScanOutChoice,
+    /// How galpixels move
+    #[arg(long, value_enum, value_name = "SCHEME", default_value_t)]
+    pub scheme: SchemeChoice,
+    /// How cells become pixels [default: nearest for map, sub-cell for source]
+    #[arg(long, value_enum, value_name = "MODE")]
+    pub scan_out: Option<ScanOutChoice>,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     pub acceleration: AccelerationChoice,
@@ -215,6 +236,7 @@ pub fn part(text: &str) -> Result<f64, String> {
 impl Extrapolation {
     /// Returns the request that these arguments make.
     pub fn request(&self) -> Request {
+        let scheme = Scheme::from(self.scheme);
         Request {
             frames: self.frames,
             extent: self.extent,
@@ -224,7 +246,8 @@ impl Extrapolation {
             fill: self.inpainting.of(self.fill.into()),
             reach: self.reach,
             edge_threshold: self.edge_threshold,
-            scan_out: self.scan_out.into(),
+            scheme,
+            scan_out: self.scan_out.map_or(scheme.scan_out(), ScanOut::from),
             perceptual: true,
             strategy: Strategy::ONE,
         }

@@ -86,8 +86,8 @@ fn columns() -> [Column<FrameReport>; 16] {
 fn table(report: &RunReport) -> String {
     let mut lines = vec![
         format!(
-            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes per galpixel, {} rounding, fill {}, scan-out {}, \
-             certified {:.4} px up to frame {}",
+            "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes per galpixel, {} rounding, fill {}, scheme {}, \
+             scan-out {}, certified {:.4} px up to frame {}",
             printable(&report.source),
             report.width,
             report.height,
@@ -97,6 +97,7 @@ fn table(report: &RunReport) -> String {
             report.budget.stored_bytes_per_galpixel,
             report.rounding,
             report.fill,
+            report.scheme,
             report.scan_out,
             report.certificate.total_px,
             report.budget.prop

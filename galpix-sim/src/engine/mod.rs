@@ -3,28 +3,31 @@
 
 mod base;
 pub mod fill;
+mod frame;
 mod layer;
 mod load;
 mod origins;
 mod scan_out;
+mod sources;
 
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::overlay::Overlay;
-use galpix_core::{BudgetError, Controller, Dynamic, Galpixmap, Grid, Maps, Margin, Settings, SetupError, Tally};
+use galpix_core::{BudgetError, Colour, Controller, Dynamic, Grid, Maps, Margin, Settings, SetupError, Tally};
 
+pub use frame::Frame;
 pub use layer::HiddenLayer;
 pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
 pub use scan_out::ScanOut;
 
-use crate::picture::Picture;
 use crate::update::Update;
 use base::Base;
 use fill::{Inpaint, Inpainter};
+use frame::{Shown, display_cells};
 use load::load_at;
 use origins::Origins;
 
@@ -66,28 +69,44 @@ pub struct Ran {
     pub used: Vec<bool>,
 }
 
-/// One frame as the display shows it, and what is known about it.
-pub struct Frame<'f> {
-    /// Frames since the update.
-    pub number: u32,
-    /// What the engine counted; all zero for the update itself.
-    pub tally: Tally,
-    /// The processor time of the engine's own work: what else runs on the machine does not count.
-    pub time: Duration,
-    map: &'f Galpixmap<'f, Dynamic>,
-    overlay: Option<&'f Overlay<'f>>,
-    settings: &'f Settings,
-    scan_out: ScanOut,
-    origins: &'f [u32],
-}
-
 /// The engine over owned memory.
 pub struct Engine {
     format: Dynamic,
     settings: Settings,
     inpaint: Option<Inpaint>,
     constant_time: bool,
+    scheme: Scheme,
     scan_out: ScanOut,
+}
+
+/// How galpixels move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Scheme {
+    /// Each frame moves them into the next map: the paper's galpixmap.
+    #[default]
+    Map,
+    /// They stay where the update put them, and each frame finds out where they are seen: stationary sources.
+    Source,
+}
+
+impl Scheme {
+    /// Returns the name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Map => "map",
+            Self::Source => "source",
+        }
+    }
+
+    /// Returns how its cells become pixels, unless told otherwise.
+    #[must_use]
+    pub const fn scan_out(self) -> ScanOut {
+        match self {
+            Self::Map => ScanOut::Nearest,
+            Self::Source => ScanOut::SubCell,
+        }
+    }
 }
 
 /// An update and its hidden layers, the first of which is layer 1.
@@ -101,7 +120,7 @@ impl Engine {
     /// Makes an engine for maps of a format.
     #[must_use]
     pub const fn new(format: Dynamic, settings: Settings) -> Self {
-        Self { format, settings, inpaint: None, constant_time: false, scan_out: ScanOut::Nearest }
+        Self { format, settings, inpaint: None, constant_time: false, scheme: Scheme::Map, scan_out: ScanOut::Nearest }
     }
 
     /// Returns the same with inpainting after each frame; its fill mode should be
@@ -111,10 +130,10 @@ impl Engine {
         Self { inpaint, ..self }
     }
 
-    /// Returns the same with pictures that are made in another way.
+    /// Returns the same with galpixels that move, and pictures that are made, in another way.
     #[must_use]
-    pub const fn scanning_out(self, scan_out: ScanOut) -> Self {
-        Self { scan_out, ..self }
+    pub const fn showing(self, scheme: Scheme, scan_out: ScanOut) -> Self {
+        Self { scheme, scan_out, ..self }
     }
 
     /// Returns the same by instructions that do not depend on the picture, if `constant_time`.
@@ -151,6 +170,9 @@ impl Engine {
             return Err(EngineError::TooManyLayers(hidden.len()));
         }
         let delivered = Delivered { update, hidden };
+        if self.scheme == Scheme::Source {
+            return self.run_sources(delivered, frames, &mut visit);
+        }
         let mut memory = Base::new(update, self.format)?;
         if hidden.is_empty() {
             let mut controller = memory.controller(update, self.format)?;
@@ -185,17 +207,8 @@ impl Engine {
     ) -> Result<Vec<bool>, EngineError> {
         let grid = *maps.shown().grid();
         let colour = *maps.shown().record().colour_format();
-        let mut rows = vec![0; Grid::rows(grid.display_height(), Margin::NONE)];
-        let display = Grid::new(grid.display_width(), grid.display_height(), Margin::NONE, &mut rows)?;
-        let mut pinned = vec![0; if update.overlay.is_some() { Overlay::words(&display) } else { 0 }];
-        let overlay = match &update.overlay {
-            Some(given) => {
-                let mut overlay = Overlay::new(display, colour, &mut pinned)?;
-                given.pin(&mut overlay);
-                Some(overlay)
-            }
-            None => None,
-        };
+        let mut pins = Pins::new(update, &grid, colour);
+        let overlay = pins.overlay()?;
         let overlay = overlay.as_ref();
         let mut inpainter = self.inpaint.map(|inpaint| Inpainter::new(&grid, inpaint));
         let mut origins = Origins::new(update, hidden);
@@ -212,10 +225,36 @@ impl Engine {
                 origins.follow(&maps, hidden);
             }
             origins.look(&maps, hidden, display_cells(&grid));
-            let (map, origins, settings) = (maps.shown(), &origins.shown, &self.settings);
-            visit(&Frame { number, tally, time, map, overlay, settings, scan_out: self.scan_out, origins });
+            let shown = Shown::Map { map: maps.shown(), scan_out: self.scan_out, settings: &self.settings };
+            visit(&Frame { number, tally, time, shown, overlay, origins: &origins.shown });
         }
         Ok(origins.used)
+    }
+}
+
+/// What an update pins over the picture, and the memory for it.
+struct Pins<'u> {
+    update: &'u Update,
+    colour: Colour,
+    size: [u32; 2],
+    rows: Vec<u32>,
+    pinned: Vec<u32>,
+}
+
+impl<'u> Pins<'u> {
+    fn new(update: &'u Update, grid: &Grid<'_>, colour: Colour) -> Self {
+        let size = [grid.display_width(), grid.display_height()];
+        Self { update, colour, size, rows: vec![0; Grid::rows(size[1], Margin::NONE)], pinned: Vec::new() }
+    }
+
+    /// Returns the overlay; none if nothing is pinned.
+    fn overlay(&mut self) -> Result<Option<Overlay<'_>>, SetupError> {
+        let Some(given) = &self.update.overlay else { return Ok(None) };
+        let display = Grid::new(self.size[0], self.size[1], Margin::NONE, &mut self.rows)?;
+        self.pinned = vec![0; Overlay::words(&display)];
+        let mut overlay = Overlay::new(display, self.colour, &mut self.pinned)?;
+        given.pin(&mut overlay);
+        Ok(Some(overlay))
     }
 }
 
@@ -226,63 +265,3 @@ struct Stepped<M> {
 }
 
 type Visit<'v> = &'v mut dyn FnMut(&Frame<'_>);
-
-impl Frame<'_> {
-    /// Returns what the display shows.
-    #[must_use]
-    pub fn picture(&self) -> Picture {
-        let grid = self.map.grid();
-        let (width, height) = (grid.display_width() as usize, grid.display_height() as usize);
-        let words = self.scan_out.words(self.map, self.overlay, self.settings);
-        let colour = self.map.record().colour_format();
-        let pixels = words.into_iter().map(|word| colour.to_rgb888(word)).collect();
-        Picture { width, height, pixels }
-    }
-
-    /// For each pixel of the display, whether a galpixel of the update reached it, or something is pinned there.
-    #[must_use]
-    pub fn reached(&self) -> Vec<bool> {
-        let width = self.map.grid().display_width();
-        let pinned = |at: u32| self.overlay.is_some_and(|overlay| overlay.pinned(at % width, at / width).is_some());
-        (0..)
-            .zip(display_cells(self.map.grid()))
-            .map(|(at, cell)| self.origins[cell as usize] != NO_ORIGIN || pinned(at))
-            .collect()
-    }
-
-    /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for
-    /// each layer above the base; [`NO_ORIGIN`] where it shows none.
-    pub fn origins(&self) -> impl Iterator<Item = u32> {
-        display_cells(self.map.grid()).map(|cell| self.origins[cell as usize])
-    }
-
-    /// Returns the map.
-    #[must_use]
-    pub fn map(&self) -> &Galpixmap<'_, Dynamic> {
-        self.map
-    }
-
-    /// Returns every galpixel that is still shown: the number of its sample, as in [`Self::origins`], and its place (x,
-    /// y) in cells of the map.
-    pub fn places(&self) -> impl Iterator<Item = (u32, [f64; 2])> {
-        let grid = *self.map.grid();
-        (0..grid.height() as i32).flat_map(move |y| {
-            (0..grid.width() as i32).filter_map(move |x| {
-                let origin = *self.origins.get(grid.cell(x, y)? as usize)?;
-                if origin == NO_ORIGIN {
-                    return None;
-                }
-                let offset = self.map.load(x, y)?.offset.map(|offset| offset.to_num::<f64>());
-                Some((origin, [f64::from(x) + offset[0], f64::from(y) + offset[1]]))
-            })
-        })
-    }
-}
-
-/// Returns the cells of the display, row by row.
-fn display_cells(grid: &Grid<'_>) -> impl Iterator<Item = u32> {
-    let margin = grid.margin();
-    let (width, height) = (grid.display_width(), grid.display_height());
-    let cell = move |x: u32, y: u32| grid.cell((x + margin.left) as i32, (y + margin.top) as i32);
-    (0..height).flat_map(move |y| (0..width).filter_map(move |x| cell(x, y)))
-}

@@ -6,7 +6,7 @@ use galpix_core::stages::{threshold_for_depth, threshold_for_speed};
 use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Record, Rounding, Settings};
 
 use crate::engine::fill::Fill;
-use crate::engine::{Engine, EngineError, ScanOut};
+use crate::engine::{Engine, EngineError, ScanOut, Scheme};
 use crate::source::hidden::{self, Carried, Kind, Strategy};
 use crate::source::{Source, SourceError};
 use crate::update::{DepthKind, Update};
@@ -54,6 +54,8 @@ pub struct Request {
     pub reach: u32,
     /// The Laplacian beyond which a cell is on an edge, as a part of the depth range; by depth kind if absent.
     pub edge_threshold: Option<f64>,
+    /// How galpixels move.
+    pub scheme: Scheme,
     /// How cells become pixels.
     pub scan_out: ScanOut,
     /// Whether SSIM and FLIP are computed too.
@@ -73,7 +75,8 @@ impl Default for Request {
             fill: Fill::default(),
             reach: 1,
             edge_threshold: None,
-            scan_out: ScanOut::default(),
+            scheme: Scheme::default(),
+            scan_out: Scheme::default().scan_out(),
             perceptual: true,
             strategy: Strategy::ONE,
         }
@@ -190,8 +193,8 @@ impl<'s> Job<'s> {
     /// Returns the engine that makes its frames.
     #[must_use]
     pub fn engine(&self) -> Engine {
-        let Request { fill, scan_out, .. } = self.request;
-        Engine::new(self.format, self.settings).inpainting(fill.inpaint()).scanning_out(scan_out)
+        let Request { fill, scheme, scan_out, .. } = self.request;
+        Engine::new(self.format, self.settings).inpainting(fill.inpaint()).showing(scheme, scan_out)
     }
 
     /// Returns what the source hands over.

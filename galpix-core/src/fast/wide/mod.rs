@@ -12,6 +12,7 @@
 
 pub(crate) mod edge;
 mod planes;
+pub(crate) mod source;
 
 use core::ops::Range;
 
@@ -71,6 +72,30 @@ struct Chunk {
     cells: usize,
 }
 
+impl Chunk {
+    /// Returns the cells.
+    #[inline(always)]
+    const fn range(&self) -> Range<usize> {
+        self.source as usize..self.source as usize + self.cells
+    }
+
+    const fn new() -> Self {
+        Self {
+            words: [[0; CHUNK]; MAX_WORDS],
+            keys: [0; CHUNK],
+            dx: [0; CHUNK],
+            dy: [0; CHUNK],
+            previous_dx: [0; CHUNK],
+            previous_dy: [0; CHUNK],
+            boundary: [0; CHUNK],
+            x: 0,
+            y: 0,
+            source: 0,
+            cells: 0,
+        }
+    }
+}
+
 /// Propagates `front` by one frame into `back` and resolves collisions, see [`crate::frame::resolve::sweep`].
 pub fn sweep<F: Format>(
     front: &Galpixmap<'_, F>,
@@ -86,19 +111,7 @@ pub fn sweep<F: Format>(
     let thresholds = thresholds(front.record(), rounding, frame);
     let motion_bits = motion_bits(front.record());
     let mut target = Target { back, winners, cleared: 0, motion_bits, tally: Tally::default() };
-    let mut chunk = Chunk {
-        words: [[0; CHUNK]; MAX_WORDS],
-        keys: [0; CHUNK],
-        dx: [0; CHUNK],
-        dy: [0; CHUNK],
-        previous_dx: [0; CHUNK],
-        previous_dy: [0; CHUNK],
-        boundary: [0; CHUNK],
-        x: 0,
-        y: 0,
-        source: 0,
-        cells: 0,
-    };
+    let mut chunk = Chunk::new();
     // Copies of the words of the last chunk of a row.
     let mut tail = [[0; CHUNK]; MAX_WORDS];
     for (y, &start) in grid.starts().iter().enumerate() {
@@ -168,6 +181,38 @@ fn step_lanes(record: &Record, thresholds: &[i32; 3], sources: &[&[u32; CHUNK]; 
     overflowed
 }
 
+/// Steps a chunk. Returns a number that is not 0 if a field of any galpixel overflowed.
+#[inline(always)]
+fn step_chunk<F: Format>(
+    record: &Record,
+    thresholds: &[i32; 3],
+    sources: &[&[u32; CHUNK]; MAX_WORDS],
+    chunk: &mut Chunk,
+) -> i32 {
+    if F::FIXED {
+        return step_lanes(record, thresholds, sources, chunk);
+    }
+    for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
+        *to = **from;
+    }
+    let Chunk { words, dx, dy, keys, .. } = chunk;
+    Planes::new(record, thresholds, words).step(dx, dy, keys)
+}
+
+/// Returns whether a step changes nothing in a chunk.
+#[inline(always)]
+fn is_unchanged(record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], motion_bits: &Words, cells: usize) -> bool {
+    // With shading inertia a colour may change although its galpixel does not move.
+    if record.layout().luminosity && record.luminosity_rate().present() {
+        return false;
+    }
+    let any = |cells: usize| {
+        let words = sources.iter().zip(motion_bits).take(record.words());
+        words.fold(0, |any, (lanes, bits)| any | lanes.iter().take(cells).fold(0, |any, lane| any | lane) & bits)
+    };
+    any(1) == 0 && any(cells) == 0
+}
+
 /// Sets each lane of `shifted` to the lane before it of `lanes`, and the first one to the first one.
 #[inline(always)]
 fn shift_in(shifted: &mut [i32; CHUNK], lanes: &[i32; CHUNK]) {
@@ -206,19 +251,11 @@ impl<F: Format> Target<'_, '_, F> {
             if front.all_empty(source..source + cells) {
                 return;
             }
-        } else if self.is_unchanged(record, &sources, cells) {
+        } else if is_unchanged(record, &sources, &self.motion_bits, cells) {
             self.store_unchanged(record, &sources, chunk);
             return;
         }
-        let overflowed = if F::FIXED {
-            step_lanes(record, thresholds, &sources, chunk)
-        } else {
-            for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
-                *to = *from;
-            }
-            let Chunk { words, dx, dy, keys, .. } = chunk;
-            Planes::new(record, thresholds, words).step(dx, dy, keys)
-        };
+        let overflowed = step_chunk::<F>(record, thresholds, &sources, chunk);
         if overflowed != 0 {
             self.step_clamped(front, thresholds, chunk);
         }
@@ -232,20 +269,6 @@ impl<F: Format> Target<'_, '_, F> {
         } else {
             self.store_runs(chunk);
         }
-    }
-
-    /// Returns whether a step changes nothing in a chunk.
-    #[inline(always)]
-    fn is_unchanged(&self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], cells: usize) -> bool {
-        // With shading inertia a colour may change although its galpixel does not move.
-        if record.layout().luminosity && record.luminosity_rate().present() {
-            return false;
-        }
-        let motion_bits = |cells: usize| {
-            let words = sources.iter().zip(self.motion_bits).take(record.words());
-            words.fold(0, |any, (lanes, bits)| any | lanes.iter().take(cells).fold(0, |any, lane| any | lane) & bits)
-        };
-        motion_bits(1) == 0 && motion_bits(cells) == 0
     }
 
     /// Stores a chunk in which a step changes nothing.

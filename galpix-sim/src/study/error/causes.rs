@@ -69,7 +69,7 @@ pub fn causes(
         if frame.number == 0 {
             return;
         }
-        let mut causes = places(reference, frame.number, layout, bits, frame.places());
+        let mut causes = places(reference, frame.number, layout, bits, frame.places().into_iter());
         let reached = frame.reached();
         let missing = reached.iter().filter(|&&reached| !reached).count();
         causes.missing_percent = 100.0 * missing as f64 / reached.len().max(1) as f64;

@@ -37,7 +37,7 @@ pub fn engine(
     let loaded = engine.run(&reference.update, reference.frames, |frame| {
         saturated += u64::from(frame.tally.saturated);
         if reference.looked.contains(&frame.number) {
-            let mut error = positions(reference, frame.number, layout, Some(bits), frame.places());
+            let mut error = positions(reference, frame.number, layout, Some(bits), frame.places().into_iter());
             error.picture = picture(reference, frame.number, || (frame.picture(), frame.reached()));
             frames.push(error);
         }

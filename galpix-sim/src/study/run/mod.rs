@@ -77,6 +77,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         rounding: request.rounding.name(),
         fill: request.fill.name(),
         edge_threshold: settings.edge_threshold,
+        scheme: request.scheme.name(),
         scan_out: request.scan_out.name(),
         ns_per_galpixel: median(times).unwrap_or(0.0),
         loaded: ran.loaded,

@@ -156,6 +156,8 @@ pub struct RunReport {
     pub fill: &'static str,
     /// Laplacian threshold, in units of the depth's last bit.
     pub edge_threshold: u32,
+    /// How galpixels moved.
+    pub scheme: &'static str,
     /// How cells became pixels.
     pub scan_out: &'static str,
     /// Median over the frames.

@@ -1,0 +1,116 @@
+//! Closes cracks: of many cells at a time it is found out which have nearer ones on opposite sides.
+
+use crate::format::Format;
+use crate::map::grid::Grid;
+use crate::source::Source;
+use crate::source::cracks::{Closed, best};
+use crate::source::visibility::{EMPTY, Kind, Visibility};
+
+/// Cells that are looked at at a time.
+const RUN: usize = 32;
+
+/// Closes cracks, see [`crate::source::cracks::close`].
+pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
+    let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
+    let (width, mut closed, mut before) = (grid.width() as usize, Closed::default(), None);
+    // Keys of depths that differ by more than the threshold differ by more than twice as much.
+    let near = (threshold << 1).min(EMPTY.into()) as u16;
+    for (y, &start) in grid.starts().iter().enumerate() {
+        let mut count = 0;
+        for x in (0..width).step_by(RUN) {
+            let mut flags = [0; RUN];
+            if flag(&Rows::around(&grid, visibility, y), x, near, &mut flags, &mut closed) == 0 {
+                continue;
+            }
+            for (x, _) in (x..width).zip(&flags).filter(|(_, flag)| **flag != 0) {
+                if let Some(entry) = best(sources, visibility, [x as i32, y as i32], threshold) {
+                    let hole = !visibility.at(start + x as u32).is_some();
+                    closed.holes += u32::from(hole);
+                    closed.empty -= u32::from(hole);
+                    visibility.postpone(y, count, x as u32, entry);
+                    count += 1;
+                }
+            }
+        }
+        if let Some((y, start, count)) = before.replace((y, start, count)) {
+            visibility.settle(y, start, count);
+        }
+    }
+    if let Some((y, start, count)) = before {
+        visibility.settle(y, start, count);
+    }
+    closed
+}
+
+/// The keys of a row and those around it; a row beyond the map is empty.
+struct Rows<'v> {
+    above: &'v [u16],
+    row: &'v [u16],
+    below: &'v [u16],
+}
+
+impl<'v> Rows<'v> {
+    #[inline(always)]
+    fn around(grid: &Grid<'_>, visibility: &'v Visibility<'_>, y: usize) -> Self {
+        let row = |y: i32| match grid.row(y) {
+            Some(start) => visibility.cells_from(start, grid.width() as usize).0,
+            None => &[],
+        };
+        let y = y as i32;
+        Self { above: row(y - 1), row: row(y), below: row(y + 1) }
+    }
+}
+
+/// Flags the cells of a run from column `x` on that may be cracks; returns a number that is not 0 if there are any.
+/// Counts points and empty cells.
+#[inline(always)]
+fn flag(rows: &Rows<'_>, x: usize, near: u16, flags: &mut [u16; RUN], closed: &mut Closed) -> u16 {
+    let of = |row: &[u16]| [before(row, x), run_at(row, x), run_at(row, x + 1)];
+    let ([above_left, above, above_right], [below_left, below, below_right]) = (of(rows.above), of(rows.below));
+    let [left, own, right] = of(rows.row);
+    let (mut points, mut empties, mut any) = (0u16, 0u16, 0);
+    for lane in 0..RUN {
+        let key = own[lane];
+        let empty = if key == EMPTY { EMPTY } else { 0 };
+        points += key & !empty & Kind::Point as u16;
+        empties += empty & 1;
+        let sides = left[lane].max(right[lane]).min(above[lane].max(below[lane]));
+        let corners = above_left[lane].max(below_right[lane]).min(above_right[lane].max(below_left[lane]));
+        let limit = key.saturating_sub(near) | empty;
+        let flag = u16::from(sides.min(corners) < limit);
+        flags[lane] = flag;
+        any |= flag;
+    }
+    // Beyond the end of a row the keys are those of empty cells.
+    let beyond = (x + RUN).saturating_sub(rows.row.len());
+    closed.points += u32::from(points);
+    closed.empty += u32::from(empties) - beyond as u32;
+    any
+}
+
+/// Returns the keys of a run. Beyond the end of the row nothing is shown.
+#[inline(always)]
+fn run_at(row: &[u16], x: usize) -> [u16; RUN] {
+    let from = row.get(x..).unwrap_or_default();
+    if let Some(run) = from.first_chunk() {
+        return *run;
+    }
+    let mut run = [EMPTY; RUN];
+    for (to, &key) in run.iter_mut().zip(from) {
+        *to = key;
+    }
+    run
+}
+
+/// Returns the keys of the cells before those of a run. Before the first one nothing is shown.
+#[inline(always)]
+fn before(row: &[u16], x: usize) -> [u16; RUN] {
+    if let Some(x) = x.checked_sub(1) {
+        return run_at(row, x);
+    }
+    let mut before = [EMPTY; RUN];
+    for (to, &key) in before.iter_mut().skip(1).zip(row) {
+        *to = key;
+    }
+    before
+}

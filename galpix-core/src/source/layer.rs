@@ -1,0 +1,99 @@
+//! One layer: samples that stay in the cells where an update put them.
+
+use super::links::{self, Links};
+use super::visibility::PARTS;
+use crate::error::SetupError;
+use crate::format::Format;
+use crate::layers::{Displacement, displacement};
+use crate::map::Galpixmap;
+
+/// The base-2 logarithm of the parts of a cell in which the places of a quad's corners count.
+pub(crate) const CORNER_PARTS: u32 = 5;
+
+/// The samples of an update, their displacements and their links, in caller-provided buffers.
+#[derive(Debug)]
+pub struct Source<'p, F> {
+    pub(crate) map: Galpixmap<'p, F>,
+    pub(crate) displacements: &'p mut [u32],
+    pub(crate) links: &'p mut [u32],
+}
+
+impl<'p, F: Format> Source<'p, F> {
+    /// Makes a source of the galpixels of `map`, which is written as any other map: in [`Self::map_mut`], also later.
+    /// `displacements` has a word for each cell and `links` [`words`](links::words) words; what they hold does not
+    /// matter. [`Self::begin`] must follow.
+    ///
+    /// *Errors:* a buffer that is too short.
+    pub fn new(map: Galpixmap<'p, F>, displacements: &'p mut [u32], links: &'p mut [u32]) -> Result<Self, SetupError> {
+        let short = |plane, need, have| SetupError::TooShort { plane, need, have };
+        let (cells, need) = (map.grid().cells() as usize, links::words(map.grid()));
+        let (have, have_links) = (displacements.len(), links.len());
+        Ok(Self {
+            displacements: displacements.get_mut(..cells).ok_or(short("plane of displacements", cells, have))?,
+            links: links.get_mut(..need).ok_or(short("plane of links", need, have_links))?,
+            map,
+        })
+    }
+
+    /// Begins with the galpixels that the map holds: each lies where it is stored, and they are linked anew.
+    ///
+    /// `edge_threshold` is that of [`Settings`](crate::Settings): depths that differ by more are of two surfaces.
+    pub fn begin(&mut self, edge_threshold: u32) {
+        self.displacements.fill(0);
+        F::source_links(&self.map, edge_threshold, self.links);
+    }
+
+    /// Returns the samples.
+    #[must_use]
+    pub const fn map(&self) -> &Galpixmap<'p, F> {
+        &self.map
+    }
+
+    /// Returns the samples, to write an update. [`Self::begin`] must follow.
+    pub const fn map_mut(&mut self) -> &mut Galpixmap<'p, F> {
+        &mut self.map
+    }
+
+    /// Returns the displacement of a sample in whole cells; what is less than a cell is its offset. `[0, 0]` outside of
+    /// the map.
+    #[must_use]
+    pub fn displacement(&self, cell: u32) -> Displacement {
+        displacement(self.displacements.get(cell as usize).copied().unwrap_or(0))
+    }
+
+    /// Returns displacements, a word for each cell, see [`displacement_word`](crate::layers::displacement_word), to
+    /// write those of an update whose samples do not lie where they are stored.
+    pub const fn displacements_mut(&mut self) -> &mut [u32] {
+        self.displacements
+    }
+
+    pub(crate) const fn links(&self) -> Links<'_> {
+        Links { words: self.links, width: self.map.grid().width() }
+    }
+
+    /// Returns the place of a sample relative to the cell where it is stored, in parts of a cell.
+    #[inline(always)]
+    pub(crate) fn place(&self, cell: u32) -> [i32; 2] {
+        let record = self.map.record();
+        let [x, y] = self.displacement(cell);
+        let part = |component: usize| {
+            let field = record.offset(component);
+            parts::<CORNER_PARTS>(self.map.signed(field, cell), field.bits.into())
+        };
+        [(x << CORNER_PARTS) + part(0), (y << CORNER_PARTS) + part(1)]
+    }
+}
+
+/// Returns an offset with `frac` fraction bits in `2^PARTS` parts of a cell.
+///
+/// *Rounding:* to nearest, halves upwards.
+#[inline(always)]
+pub(crate) const fn parts<const PARTS: u32>(offset: i32, frac: u32) -> i32 {
+    if frac <= PARTS { offset << (PARTS - frac) } else { (offset + (1 << (frac - PARTS) >> 1)) >> (frac - PARTS) }
+}
+
+/// Returns the residual of the cell that is nearest to a sample with these offsets, in sixteenths of a cell.
+#[inline(always)]
+pub(crate) const fn residual(offset: [i32; 2], frac: [u32; 2]) -> [i32; 2] {
+    [-parts::<PARTS>(offset[0], frac[0]), -parts::<PARTS>(offset[1], frac[1])]
+}

@@ -1,0 +1,236 @@
+//! Links: which neighbouring samples are of one surface.
+//!
+//! Two samples that share a side are *linked* if between them neither depth nor velocity steps. A value steps if its
+//! difference is larger than a threshold, and no continuation of the slope on either side of the pair. So slanted and
+//! turning surfaces stay whole, and a silhouette is cut. Where two samples are not linked, one bit says which of the
+//! two is nearer, because that one's surface ends there.
+//!
+//! *Memory:* four bits a sample. *Cost:* once for each update.
+
+use crate::format::Format;
+use crate::format::record::Field;
+use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
+use crate::map::grid::Grid;
+
+/// Samples of a word.
+const WORD: u32 = 8;
+
+/// Two samples are linked.
+const LINKED: u32 = 0b11;
+/// The first of two samples, which is the left or the upper one, is nearer.
+const FIRST: u32 = 0b01;
+/// The second of two samples is nearer.
+const SECOND: u32 = 0b10;
+
+/// Returns the words of the links of a grid.
+#[must_use]
+pub const fn words(grid: &Grid<'_>) -> usize {
+    grid.cells().div_ceil(WORD) as usize
+}
+
+/// Where a neighbour lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Side {
+    Left,
+    Right,
+    Above,
+    Below,
+}
+
+impl Side {
+    pub(crate) const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Above, Self::Below];
+
+    /// Returns column and row of the neighbour, relative to the cell.
+    #[inline(always)]
+    pub(crate) const fn towards(self) -> [i32; 2] {
+        match self {
+            Self::Left => [-1, 0],
+            Self::Right => [1, 0],
+            Self::Above => [0, -1],
+            Self::Below => [0, 1],
+        }
+    }
+
+    /// Returns the side as seen from the neighbour.
+    pub(crate) const fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+            Self::Above => Self::Below,
+            Self::Below => Self::Above,
+        }
+    }
+
+    /// Returns the part of a place that points to this side.
+    #[inline(always)]
+    pub(crate) const fn along(self, [x, y]: [i32; 2]) -> i32 {
+        match self {
+            Self::Left => -x,
+            Self::Right => x,
+            Self::Above => -y,
+            Self::Below => y,
+        }
+    }
+}
+
+/// The links of a grid's samples.
+#[derive(Clone, Copy)]
+pub(crate) struct Links<'l> {
+    pub words: &'l [u32],
+    /// Columns of the grid.
+    pub width: u32,
+}
+
+impl Links<'_> {
+    /// Returns the four bits of a cell: two for the pair with its right neighbour, two for that with the lower one.
+    #[inline(always)]
+    fn of(self, cell: u32) -> u32 {
+        self.words.get((cell / WORD) as usize).map_or(0, |word| word >> ((cell % WORD) << 2) & 0b1111)
+    }
+
+    /// Returns whether a cell is linked with its right neighbour. Cells beyond the grid are not linked.
+    #[inline(always)]
+    pub(crate) fn right(self, cell: u32) -> bool {
+        self.of(cell) & LINKED == LINKED
+    }
+
+    /// Returns whether a cell is linked with its lower neighbour.
+    #[inline(always)]
+    pub(crate) fn below(self, cell: u32) -> bool {
+        self.of(cell) >> 2 == LINKED
+    }
+
+    /// Returns the cell at a side; beyond the border of the grid one that has no links with the cell.
+    #[inline(always)]
+    pub(crate) fn beyond(self, cell: u32, side: Side) -> u32 {
+        match side {
+            Side::Left => cell.wrapping_sub(1),
+            Side::Right => cell + 1,
+            Side::Above => cell.wrapping_sub(self.width),
+            Side::Below => cell + self.width,
+        }
+    }
+
+    /// Returns the neighbour of a cell, if the two are linked.
+    #[inline(always)]
+    pub(crate) fn neighbour(self, cell: u32, side: Side) -> Option<u32> {
+        let neighbour = self.beyond(cell, side);
+        let linked = match side {
+            Side::Left => self.right(neighbour),
+            Side::Right => self.right(cell),
+            Side::Above => self.below(neighbour),
+            Side::Below => self.below(cell),
+        };
+        linked.then_some(neighbour)
+    }
+
+    /// Returns whether the surface of a cell ends at this side, in front of that of the neighbour.
+    #[inline(always)]
+    pub(crate) fn ends(self, cell: u32, side: Side) -> bool {
+        match side {
+            Side::Left => self.of(cell.wrapping_sub(1)) & LINKED == SECOND,
+            Side::Right => self.of(cell) & LINKED == FIRST,
+            Side::Above => self.of(cell.wrapping_sub(self.width)) >> 2 == SECOND,
+            Side::Below => self.of(cell) >> 2 == FIRST,
+        }
+    }
+
+    /// Returns the bits of the eight cells from `cell` on; 0 for what is not in the grid.
+    #[inline(always)]
+    fn eight(self, cell: u32) -> u32 {
+        let word = |index: u32| u64::from(self.words.get(index as usize).copied().unwrap_or(0));
+        ((word(cell / WORD) | word(cell / WORD + 1) << 32) >> ((cell % WORD) << 2)) as u32
+    }
+
+    /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of their
+    /// samples lies beside a nearer surface.
+    #[inline(always)]
+    pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
+        const RIGHT: u32 = 0x3333_3333;
+        const LOWER: u32 = 0x1111_1111;
+        let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
+        let (mut missing, mut done) = (0, 0);
+        while done <= count {
+            let part = (count + 1 - done).min(WORD);
+            let cells = u32::MAX >> ((WORD - part) << 2);
+            // All but the column after the last quad must be linked with the next one.
+            let inner = if done + part > count { cells >> 4 } else { cells };
+            let (own, next) = (self.eight(cell + done), self.eight(below + done));
+            missing |= !own & (cells & !RIGHT | inner & RIGHT) | !next & inner & RIGHT;
+            // In a pair with the row above the first one is nearer, or in one with the row beyond the second one.
+            let before = self.eight(above.wrapping_add(done)) >> 2;
+            let after = next >> 2;
+            missing |= (before & !(before >> 1) | !after & (after >> 1)) & LOWER & cells;
+            done += part;
+        }
+        let nearer = |cell: u32, side: Side| self.ends(self.beyond(cell, side), side.opposite());
+        let sides = nearer(cell, Side::Left) | nearer(below, Side::Left);
+        missing == 0 && !sides && !nearer(cell + count, Side::Right) && !nearer(below + count, Side::Right)
+    }
+
+    /// Returns whether four samples are a quad: a cell, the ones right of it and below it, and the fourth.
+    #[inline(always)]
+    pub(crate) fn quad(self, cell: u32) -> bool {
+        self.of(cell) == LINKED << 2 | LINKED && self.below(cell + 1) && self.right(cell + self.width)
+    }
+}
+
+/// A value that must not step between linked samples.
+struct Value {
+    field: Field,
+    signed: bool,
+    /// The largest difference that is no step.
+    threshold: u32,
+}
+
+/// Links the samples of a map. `edge_threshold` is in units of the depth's last bit; velocities step by more than a
+/// quarter of a cell a frame.
+pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
+    links.fill(0);
+    let record = map.record();
+    let quarter = |component: usize| 1 << record.scales[component].velocity_frac >> 2;
+    let values = [
+        Value { field: record.depth(), signed: false, threshold: edge_threshold },
+        Value { field: record.velocity(0), signed: true, threshold: quarter(0) },
+        Value { field: record.velocity(1), signed: true, threshold: quarter(1) },
+    ];
+    let (grid, width) = (*map.grid(), map.grid().width());
+    for (y, &start) in (0..).zip(grid.starts()) {
+        for x in 0..width {
+            let cell = start + x;
+            let column = |x: u32| (x < width).then(|| start + x);
+            let along = [x.checked_sub(1).and_then(column), Some(cell), column(x + 1), column(x + 2)];
+            let row = |y: i32| grid.row(y).map(|row| row + x);
+            let down = [row(y - 1), Some(cell), row(y + 1), row(y + 2)];
+            let bits = pair(map, &values, along) | pair(map, &values, down) << 2;
+            if let Some(word) = links.get_mut((cell / WORD) as usize) {
+                *word |= bits << ((cell % WORD) << 2);
+            }
+        }
+    }
+}
+
+/// Returns the two bits of a pair of neighbours, which are the second and the third of four cells in a row or column.
+fn pair<F: Format>(map: &Galpixmap<'_, F>, values: &[Value; 3], cells: [Option<u32>; 4]) -> u32 {
+    let galpixels = cells.map(|cell| cell.filter(|&cell| map.class(cell) == Class::Galpixel));
+    let [before, Some(first), Some(second), after] = galpixels else { return 0 };
+    let read = |value: &Value, cell: u32| {
+        if value.signed { map.signed(value.field, cell) } else { map.unsigned(value.field, cell) as i32 }
+    };
+    let steps = values.iter().any(|value| {
+        let (a, b) = (read(value, first), read(value, second));
+        let slope = b - a;
+        let bend = |beside: Option<i32>| beside.map_or(u32::MAX, |beside| slope.abs_diff(beside));
+        let before = bend(before.map(|cell| a - read(value, cell)));
+        let after = bend(after.map(|cell| read(value, cell) - b));
+        slope.unsigned_abs().min(before).min(after) > value.threshold
+    });
+    let [a, b] = [first, second].map(|cell| map.unsigned(map.record().depth(), cell));
+    match (steps, a.cmp(&b)) {
+        (false, _) => LINKED,
+        (true, core::cmp::Ordering::Less) => FIRST,
+        (true, core::cmp::Ordering::Greater) => SECOND,
+        (true, core::cmp::Ordering::Equal) => 0,
+    }
+}

@@ -1,0 +1,192 @@
+//! Stationary sources: samples stay where an update put them, and each frame finds out which of them every cell shows.
+//!
+//! In a map that moves, the galpixel that loses a collision is gone for good, so that a surface wears out. Here a
+//! sample keeps its place in a [`Source`] for as long as it lives: a step changes its words and its *displacement*. The
+//! frame itself is a [`Visibility`] buffer. It says for each cell which sample is seen there, and where beside it.
+//!
+//! ```text
+//! update ─▶ link        which neighbours are of one surface                    once
+//! frame  ─▶ scatter     step every sample; show it in the cell nearest to it   every sample
+//!           quads       cells within stretched surfaces                        few
+//!           cracks      cells between two samples of one surface               every cell
+//! show   ─▶ gather      bilinear between linked samples                        every cell
+//!           fill        cells that show no sample                              few
+//!           silhouettes by coverage                                            few
+//! ```
+//!
+//! Samples of several layers compete for the same cells, so that what is covered now is seen as soon as it is not.
+//! Which one wins is a total order: (depth, quad before point, layer, cell). The result does not depend on the order
+//! in which samples arrive.
+//!
+//! *Memory* per sample: the galpixel, a word for its displacement, and half a byte for its links; per cell of the
+//! display 6 bytes.
+
+pub(crate) mod cracks;
+pub(crate) mod gather;
+pub(crate) mod layer;
+pub(crate) mod links;
+pub(crate) mod quads;
+pub(crate) mod row;
+pub(crate) mod scatter;
+pub(crate) mod visibility;
+
+pub use layer::Source;
+pub use links::words as link_words;
+pub use row::Gather;
+pub use visibility::{MOST_SAMPLES, Visibility};
+
+use crate::error::SetupError;
+use crate::fast;
+use crate::format::Format;
+use crate::format::rounding::Rounding;
+use crate::frame::Settings;
+use crate::frame::tally::Tally;
+use crate::map::Galpixmap;
+use visibility::threshold;
+
+/// Layers of stationary sources over one grid, and what of them is shown.
+#[derive(Debug)]
+pub struct Sources<'p, 'l, F> {
+    pub(crate) layers: &'l mut [Source<'p, F>],
+    pub(crate) visibility: Visibility<'p>,
+    frame: u32,
+}
+
+impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
+    /// Shows layers, the first of which is the base. [`Self::show`] must follow.
+    ///
+    /// *Errors:* no layer, layers over different grids, more than [`MOST_SAMPLES`] samples together, a visibility
+    /// buffer of a smaller grid.
+    pub fn new(layers: &'l mut [Source<'p, F>], visibility: Visibility<'p>) -> Result<Self, SetupError> {
+        let Some(grid) = layers.first().map(|layer| *layer.map.grid()) else {
+            return Err(SetupError::Size { width: 0, height: 0 });
+        };
+        if layers.iter().any(|layer| *layer.map.grid() != grid) || visibility.cells() != grid.cells() {
+            return Err(SetupError::GridsDiffer);
+        }
+        let samples = u64::from(grid.cells()) * layers.len() as u64;
+        if samples > u64::from(MOST_SAMPLES) {
+            return Err(SetupError::TooManySamples { samples, most: MOST_SAMPLES });
+        }
+        Ok(Self { layers, visibility, frame: 0 })
+    }
+
+    /// Makes the next frame: every sample makes a step.
+    ///
+    /// Of the counts, `moved` and `lost` are those of samples, `collided` the samples whose cell shows another one,
+    /// `holes` the cells that no sample and no quad reached, `bullets` those of them that were closed as cracks, and
+    /// `empty` the others. A sample that is lost has no cell at the moment, and may come back.
+    pub fn step(&mut self, settings: &Settings) -> Tally {
+        let step = Some((settings.rounding, self.frame));
+        self.frame = self.frame.wrapping_add(1);
+        F::sources_draw(self.layers, &mut self.visibility, settings.edge_threshold, step)
+    }
+
+    /// Shows the samples where they are, without a step: after an update.
+    pub fn show(&mut self, settings: &Settings) -> Tally {
+        F::sources_draw(self.layers, &mut self.visibility, settings.edge_threshold, None)
+    }
+
+    /// Returns a layer, to write an update; 0 is the base.
+    pub fn layer_mut(&mut self, layer: usize) -> Option<&mut Source<'p, F>> {
+        self.layers.get_mut(layer)
+    }
+
+    /// Returns the layers.
+    #[must_use]
+    pub const fn layers(&self) -> &[Source<'p, F>] {
+        self.layers
+    }
+
+    /// The bits of the depths that [`Self::known`] writes, and of an edge threshold for them.
+    pub const DEPTH_BITS: u32 = visibility::DEPTH_BITS;
+
+    /// Returns the base's samples.
+    #[must_use]
+    pub fn base(&self) -> Option<&Galpixmap<'p, F>> {
+        self.layers.first().map(|layer| &layer.map)
+    }
+
+    /// Returns the frame counter, see [`Controller::frame`](crate::Controller::frame).
+    #[must_use]
+    pub const fn frame(&self) -> u32 {
+        self.frame
+    }
+
+    /// Sets the frame counter, see [`Controller::set_frame`](crate::Controller::set_frame).
+    pub const fn set_frame(&mut self, frame: u32) {
+        self.frame = frame;
+    }
+
+    /// Returns the sample that a cell of the map shows: its layer, and the cell where it is stored. `None` if it shows
+    /// none.
+    #[must_use]
+    pub fn shown(&self, cell: u32) -> Option<(usize, u32)> {
+        let entry = self.visibility.at(cell);
+        let (_, first, layer) = layer_of(self.layers, entry.sample()).filter(|_| entry.is_some())?;
+        Some((layer, entry.sample() - first))
+    }
+}
+
+/// Finds out what every cell shows, after a step if a rounding and a frame counter are given.
+pub(crate) fn draw<F: Format>(
+    layers: &mut [Source<'_, F>],
+    visibility: &mut Visibility<'_>,
+    edge_threshold: u32,
+    step: Option<(Rounding, u32)>,
+) -> Tally {
+    visibility.clear();
+    let mut tally = Tally::default();
+    let mut first = 0;
+    for layer in layers.iter_mut() {
+        let own = fast::scatter(layer, visibility, first, edge_threshold, step);
+        tally.moved += own.moved;
+        tally.lost += own.lost;
+        tally.saturated += own.saturated;
+        first += layer.map.grid().cells();
+    }
+    let bits = layers.first().map_or(0, |layer| layer.map.record().depth().bits.into());
+    let closed = fast::close_cracks(layers, visibility, threshold(edge_threshold, bits));
+    Tally {
+        collided: tally.moved - tally.lost - closed.points,
+        holes: closed.holes + closed.empty,
+        bullets: closed.holes,
+        empty: closed.empty,
+        ..tally
+    }
+}
+
+/// The reference of [`fast::scatter`]: steps and shows all samples, then the stretched quads.
+pub(crate) fn scatter<F: Format>(
+    source: &mut Source<'_, F>,
+    visibility: &mut Visibility<'_>,
+    first: u32,
+    edge_threshold: u32,
+    step: Option<(Rounding, u32)>,
+) -> Tally {
+    let tally = scatter::scatter(source, visibility, first, edge_threshold, step);
+    quads::draw(source, visibility, first);
+    tally
+}
+
+/// Links the samples of a map.
+pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
+    links::link(map, edge_threshold, links);
+}
+
+/// Returns the layer of a sample, the number of its first sample, and its own number.
+#[inline(always)]
+pub(crate) fn layer_of<'s, 'p, F: Format>(
+    layers: &'s [Source<'p, F>],
+    sample: u32,
+) -> Option<(&'s Source<'p, F>, u32, usize)> {
+    let mut first = 0;
+    for (number, layer) in layers.iter().enumerate() {
+        let end = first + layer.map.grid().cells();
+        if sample < end {
+            return Some((layer, first, number));
+        }
+        first = end;
+    }
+    None
+}
