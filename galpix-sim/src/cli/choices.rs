@@ -3,6 +3,7 @@
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
+use super::CliError;
 use crate::engine::fill::{Fill, Gamma, Inpaint, Kind};
 use crate::engine::{ScanOut, Scheme};
 use crate::source::capture::{AccelerationPolicy, ImportOptions};
@@ -35,7 +36,7 @@ impl From<RoundingChoice> for Rounding {
 }
 
 /// What is put into holes. Each mode includes the cheaper ones that it builds on.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FillChoice {
     /// Holes are shown black
     None,
@@ -48,7 +49,6 @@ pub enum FillChoice {
     /// As bullet, and debris keeps its motion, one frame late
     Galdebris,
     /// As bullet, and what was uncovered continues the farther of the surfaces next to it, along its row
-    #[default]
     Extend,
     /// As extend, and what was uncovered takes the colours around it that are no nearer, the finer the closer
     PushPull,
@@ -72,13 +72,23 @@ impl From<FillChoice> for Fill {
 }
 
 /// How galpixels move.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum SchemeChoice {
     /// From map to map: the paper's galpixmap
     #[default]
     Map,
     /// They stay where the update put them, and each frame finds out where they are seen
     Source,
+}
+
+impl SchemeChoice {
+    /// Returns what is put into holes, unless told otherwise.
+    const fn fill(self) -> FillChoice {
+        match self {
+            Self::Map => FillChoice::Extend,
+            Self::Source => FillChoice::PushPull,
+        }
+    }
 }
 
 impl From<SchemeChoice> for Scheme {
@@ -191,9 +201,9 @@ pub struct Extrapolation {
     /// Frames to extrapolate [default: what the source is meant for]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
-    /// What is put into holes
-    #[arg(long, value_enum, value_name = "MODE", default_value_t)]
-    pub fill: FillChoice,
+    /// What is put into holes [default: extend for map, push-pull for source]
+    #[arg(long, value_enum, value_name = "MODE")]
+    pub fill: Option<FillChoice>,
     #[command(flatten)]
     pub inpainting: Inpainting,
     /// Rounds of bullet filling: each closes one cell more from each side
@@ -235,22 +245,39 @@ pub fn part(text: &str) -> Result<f64, String> {
 
 impl Extrapolation {
     /// Returns the request that these arguments make.
-    pub fn request(&self) -> Request {
+    ///
+    /// *Errors:* what stationary sources do not have.
+    pub fn request(&self) -> Result<Request, CliError> {
         let scheme = Scheme::from(self.scheme);
-        Request {
+        let fill = self.fill.unwrap_or(self.scheme.fill());
+        if self.scheme == SchemeChoice::Source {
+            use FillChoice::{Bullet, Debris, Galdebris, Metamer};
+            if let Debris | Bullet | Galdebris | Metamer = fill {
+                let name = Fill::from(fill).name();
+                let sentence = format!(
+                    "`--fill {name}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull"
+                );
+                return Err(CliError::unusable(sentence));
+            }
+            if self.reach != 1 {
+                let sentence = "`--reach` is for `--scheme map`: stationary sources close cracks without rounds";
+                return Err(CliError::unusable(sentence));
+            }
+        }
+        Ok(Request {
             frames: self.frames,
             extent: self.extent,
             recog: self.recog,
             prop: self.prop,
             rounding: self.rounding.into(),
-            fill: self.inpainting.of(self.fill.into()),
+            fill: self.inpainting.of(fill.into()),
             reach: self.reach,
             edge_threshold: self.edge_threshold,
             scheme,
             scan_out: self.scan_out.map_or(scheme.scan_out(), ScanOut::from),
             perceptual: true,
             strategy: Strategy::ONE,
-        }
+        })
     }
 }
 

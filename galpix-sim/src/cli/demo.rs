@@ -29,7 +29,7 @@ impl Default for Demo {
 impl Demo {
     /// Runs the scenes.
     pub fn run(&self) -> Result<(), CliError> {
-        let plan = Plan { request: Request { perceptual: false, ..self.extrapolation.request() } };
+        let plan = Plan { request: Request { perceptual: false, ..self.extrapolation.request()? } };
         drive(&plan, &[call::all()], &Publication { out: Some(self.out.clone()), json: false })
     }
 }

@@ -37,7 +37,7 @@ pub enum CliError {
 
 impl CliError {
     /// Input that cannot be used.
-    fn unusable(reason: impl ToString) -> Self {
+    pub(crate) fn unusable(reason: impl ToString) -> Self {
         Self::Unusable(reason.to_string())
     }
 

@@ -21,6 +21,8 @@ pub struct Frame<'f> {
     pub(super) shown: Shown<'f>,
     pub(super) overlay: Option<&'f Overlay<'f>>,
     pub(super) origins: &'f [u32],
+    /// For each cell, whether the update's samples alone reach it as stationary sources; `None` if `origins` says so.
+    pub(super) outline: Option<Vec<bool>>,
 }
 
 /// The number of a sample, as in [`Frame::origins`], and its place (x, y) in cells of the map.
@@ -70,12 +72,24 @@ impl Frame<'_> {
     /// For each pixel of the display, whether a galpixel of the update reached it, or something is pinned there.
     #[must_use]
     pub fn reached(&self) -> Vec<bool> {
+        self.pixels(|cell| self.origins[cell] != NO_ORIGIN)
+    }
+
+    /// For each pixel of the display, whether a sample of the update would be seen there if none was lost on the way: as
+    /// stationary sources, whatever the scheme.
+    #[must_use]
+    pub fn outline(&self) -> Vec<bool> {
+        match &self.outline {
+            Some(outline) => self.pixels(|cell| outline[cell]),
+            None => self.reached(),
+        }
+    }
+
+    /// Returns for each pixel whether something holds for its cell or something is pinned there.
+    fn pixels(&self, holds: impl Fn(usize) -> bool) -> Vec<bool> {
         let width = self.grid().display_width();
         let pinned = |at: u32| self.overlay.is_some_and(|overlay| overlay.pinned(at % width, at / width).is_some());
-        (0..)
-            .zip(display_cells(self.grid()))
-            .map(|(at, cell)| self.origins[cell as usize] != NO_ORIGIN || pinned(at))
-            .collect()
+        (0..).zip(display_cells(self.grid())).map(|(at, cell)| holds(cell as usize) || pinned(at)).collect()
     }
 
     /// For each pixel of the display, the number of the sample that it shows: its cell, plus the cells of an update for

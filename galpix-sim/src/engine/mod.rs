@@ -15,6 +15,7 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::overlay::Overlay;
+use galpix_core::source::{MOST_SAMPLES, Sources};
 use galpix_core::{BudgetError, Colour, Controller, Dynamic, Grid, Maps, Margin, Settings, SetupError, Tally};
 
 pub use frame::Frame;
@@ -77,6 +78,7 @@ pub struct Engine {
     constant_time: bool,
     scheme: Scheme,
     scan_out: ScanOut,
+    outlined: bool,
 }
 
 /// How galpixels move.
@@ -120,7 +122,15 @@ impl Engine {
     /// Makes an engine for maps of a format.
     #[must_use]
     pub const fn new(format: Dynamic, settings: Settings) -> Self {
-        Self { format, settings, inpaint: None, constant_time: false, scheme: Scheme::Map, scan_out: ScanOut::Nearest }
+        Self {
+            format,
+            settings,
+            inpaint: None,
+            constant_time: false,
+            scheme: Scheme::Map,
+            scan_out: ScanOut::Nearest,
+            outlined: false,
+        }
     }
 
     /// Returns the same with inpainting after each frame; its fill mode should be
@@ -134,6 +144,12 @@ impl Engine {
     #[must_use]
     pub const fn showing(self, scheme: Scheme, scan_out: ScanOut) -> Self {
         Self { scheme, scan_out, ..self }
+    }
+
+    /// Returns the same, with [`Frame::outline`] of each frame.
+    #[must_use]
+    pub const fn outlined(self) -> Self {
+        Self { outlined: true, ..self }
     }
 
     /// Returns the same by instructions that do not depend on the picture, if `constant_time`.
@@ -174,15 +190,23 @@ impl Engine {
             return self.run_sources(delivered, frames, &mut visit);
         }
         let mut memory = Base::new(update, self.format)?;
+        let mut starts = memory.starts.clone();
+        let grid = grid(update, &mut starts)?;
+        let mut sources =
+            sources::Memory::new(&grid, self.format, usize::from(self.outlined && grid.cells() <= MOST_SAMPLES));
+        let (mut source, visibility) = sources.lay(grid, self.format)?;
+        let outline = match source.is_empty() {
+            true => None,
+            false => Some(self.outline_of(update, (&mut source, visibility))?),
+        };
         if hidden.is_empty() {
             let mut controller = memory.controller(update, self.format)?;
             let loaded = load(update, controller.front_mut());
             let step = if self.constant_time { Controller::step_constant_time } else { Controller::step };
-            let used = self.frames(Stepped { maps: controller, step }, delivered, frames, &mut visit)?;
+            let stepped = Stepped { maps: controller, step, outline };
+            let used = self.frames(stepped, delivered, frames, &mut visit)?;
             return Ok(Ran { loaded, hidden: Vec::new(), used });
         }
-        let mut starts = memory.starts.clone();
-        let grid = grid(update, &mut starts)?;
         let mut own: Vec<layer::Memory> =
             hidden.iter().map(|hidden| layer::Memory::new(&grid, self.format, hidden)).collect();
         let base = memory.controller(update, self.format)?;
@@ -193,14 +217,14 @@ impl Engine {
         let store = |(layer, hidden): (usize, &HiddenLayer<'_>)| layers.layer_mut(layer).map(|map| hidden.load(map));
         let loaded_hidden = (1..).zip(hidden).filter_map(store).collect();
         layers.composite();
-        let used = self.frames(Stepped { maps: layers, step: Maps::step }, delivered, frames, &mut visit)?;
+        let used = self.frames(Stepped { maps: layers, step: Maps::step, outline }, delivered, frames, &mut visit)?;
         Ok(Ran { loaded, hidden: loaded_hidden, used })
     }
 
     /// Shows the update and `frames` frames; returns which samples were ever shown.
     fn frames<'p>(
         &self,
-        Stepped { mut maps, step }: Stepped<impl Maps<'p, Format = Dynamic>>,
+        Stepped { mut maps, step, mut outline }: Stepped<'_, '_, impl Maps<'p, Format = Dynamic>>,
         Delivered { update, hidden }: Delivered<'_>,
         frames: u32,
         visit: Visit<'_>,
@@ -226,7 +250,8 @@ impl Engine {
             }
             origins.look(&maps, hidden, display_cells(&grid));
             let shown = Shown::Map { map: maps.shown(), scan_out: self.scan_out, settings: &self.settings };
-            visit(&Frame { number, tally, time, shown, overlay, origins: &origins.shown });
+            let outline = outline.as_mut().map(|outline| self.outline(outline, number));
+            visit(&Frame { number, tally, time, shown, overlay, origins: &origins.shown, outline });
         }
         Ok(origins.used)
     }
@@ -259,9 +284,11 @@ impl<'u> Pins<'u> {
 }
 
 /// Maps, and how their next frame is made.
-struct Stepped<M> {
+struct Stepped<'p, 'l, M> {
     maps: M,
     step: fn(&mut M, &Settings) -> Tally,
+    /// The update's samples alone, see [`Frame::outline`].
+    outline: Option<Sources<'p, 'l, Dynamic>>,
 }
 
 type Visit<'v> = &'v mut dyn FnMut(&Frame<'_>);

@@ -5,17 +5,60 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use galpix_core::inpaint::{Inpainting, Motion, Picture, PushPull};
 use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
-use galpix_core::{Dynamic, Format, Galpixmap, Grid, Settings, Tally};
+use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Grid, Settings, SetupError, Tally};
 
+use super::fill::in_fovea;
 use super::frame::{Frame, Shown, display_cells, places_of};
 use super::load::{grid, margin};
+use crate::update::Update;
+
 use super::{Delivered, Engine, EngineError, HiddenLayer, NO_ORIGIN, Pins, Ran, ScanOut, Visit, load};
 
+/// The memory of sources over one grid.
+pub(super) struct Memory {
+    layers: Vec<LayerMemory>,
+    keys: Vec<u16>,
+    words: Vec<u32>,
+    line: Vec<u32>,
+}
+
 /// The memory of a layer.
-struct Memory {
+struct LayerMemory {
     map: Vec<u32>,
     displacements: Vec<u32>,
     links: Vec<u32>,
+}
+
+impl Memory {
+    /// Makes memory for so many layers.
+    pub(super) fn new(grid: &Grid<'_>, format: Dynamic, layers: usize) -> Self {
+        let cells = grid.cells() as usize;
+        let layer = || LayerMemory {
+            map: vec![0; Galpixmap::words(grid, format)],
+            displacements: vec![0; cells],
+            links: vec![0; link_words(grid)],
+        };
+        Self {
+            layers: std::iter::repeat_with(layer).take(layers).collect(),
+            keys: vec![0; cells],
+            words: vec![0; cells],
+            line: vec![0; Visibility::line_words(grid)],
+        }
+    }
+
+    /// Lays layers and a visibility buffer over the memory.
+    pub(super) fn lay<'p>(
+        &'p mut self,
+        grid: Grid<'p>,
+        format: Dynamic,
+    ) -> Result<(Vec<Source<'p, Dynamic>>, Visibility<'p>), SetupError> {
+        let Self { layers, keys, words, line } = self;
+        let visibility = Visibility::new(&grid, keys, words, line)?;
+        let layers = layers.iter_mut().map(|LayerMemory { map, displacements, links }| {
+            Source::new(Galpixmap::new(grid, format, map)?, displacements, links)
+        });
+        Ok((layers.collect::<Result<_, _>>()?, visibility))
+    }
 }
 
 /// A picture of all cells of a map.
@@ -54,21 +97,8 @@ impl Engine {
         let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];
         let grid = grid(update, &mut starts)?;
         let cells = grid.cells() as usize;
-        let mut memory: Vec<Memory> = (0..=hidden.len())
-            .map(|_| Memory {
-                map: vec![0; Galpixmap::words(&grid, self.format)],
-                displacements: vec![0; cells],
-                links: vec![0; link_words(&grid)],
-            })
-            .collect();
-        let mut layers = memory
-            .iter_mut()
-            .map(|Memory { map, displacements, links }| {
-                Source::new(Galpixmap::new(grid, self.format, map)?, displacements, links)
-            })
-            .collect::<Result<Vec<Source<'_, Dynamic>>, _>>()?;
-        let (mut keys, mut words, mut line) = (vec![0; cells], vec![0; cells], vec![0; Visibility::line_words(&grid)]);
-        let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line)?;
+        let mut memory = Memory::new(&grid, self.format, 1 + hidden.len());
+        let (mut layers, visibility) = memory.lay(grid, self.format)?;
         let mut loaded = Vec::new();
         for (index, source) in layers.iter_mut().enumerate() {
             let layer = index.checked_sub(1).map(|hidden_index| &hidden[hidden_index]);
@@ -84,6 +114,13 @@ impl Engine {
             }
         }
         let mut sources = Sources::new(&mut layers, visibility)?;
+        // Without hidden layers what is shown is the outline.
+        let mut own = Memory::new(&grid, self.format, usize::from(self.outlined && !hidden.is_empty()));
+        let (mut own_layers, own_visibility) = own.lay(grid, self.format)?;
+        let mut outline = match own_layers.is_empty() {
+            true => None,
+            false => Some(self.outline_of(update, (&mut own_layers, own_visibility))?),
+        };
         let mut pins = Pins::new(update, &grid, *self.format.record().colour_format());
         let overlay = pins.overlay()?;
         let mut canvas = Canvas::new(&grid, self.inpaint.is_some());
@@ -92,15 +129,16 @@ impl Engine {
         for number in 0..=frames {
             let started = ThreadTime::now();
             let tally = if number > 0 { sources.step(&self.settings) } else { sources.show(&self.settings) };
-            let holes = self.paint(&sources, &grid, &mut canvas);
-            let (tally, time) = if number > 0 {
-                (
-                    Tally { galdebris: if self.fills() { tally.empty } else { 0 }, empty: holes, ..tally },
-                    started.elapsed(),
-                )
-            } else {
-                (Tally::default(), Duration::ZERO)
+            self.paint(&sources, &grid, &mut canvas);
+            let time = started.elapsed();
+            let (tally, time) = match number {
+                0 => (Tally::default(), Duration::ZERO),
+                _ if self.settings.fill_mode == FillMode::Extend => {
+                    (Tally { galdebris: tally.empty, empty: 0, ..tally }, time)
+                }
+                _ => (tally, time),
             };
+            let outline = outline.as_mut().map(|outline| self.outline(outline, number));
             for (cell, origin) in (0..).zip(&mut origins) {
                 let sample = |(layer, sample): (usize, u32)| layer as u32 * grid.cells() + sample;
                 *origin = sources.shown(cell).map_or(NO_ORIGIN, sample);
@@ -112,19 +150,38 @@ impl Engine {
             }
             let places = || places_of(&sources);
             let shown = Shown::Sources { grid, format: &self.format, colours: &canvas.finished, places: &places };
-            visit(&Frame { number, tally, time, shown, overlay: overlay.as_ref(), origins: &origins });
+            visit(&Frame { number, tally, time, shown, overlay: overlay.as_ref(), origins: &origins, outline });
         }
         let base = loaded.remove(0);
         Ok(Ran { loaded: base, hidden: loaded, used })
     }
 
-    /// Whether holes are filled by what is around them.
-    fn fills(&self) -> bool {
-        self.settings.fill_mode == galpix_core::FillMode::Extend
+    /// Makes the next frame of the update's samples alone, and returns for each cell whether it shows one.
+    pub(super) fn outline(&self, sources: &mut Sources<'_, '_, Dynamic>, number: u32) -> Vec<bool> {
+        if number > 0 {
+            sources.step(&self.settings);
+        } else {
+            sources.show(&self.settings);
+        }
+        let cells = sources.base().map_or(0, |map| map.grid().cells());
+        (0..cells).map(|cell| sources.shown(cell).is_some()).collect()
     }
 
-    /// Makes the picture of a frame; returns the cells that show no sample.
-    fn paint(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>, canvas: &mut Canvas) -> u32 {
+    /// Returns the update's samples alone over this memory.
+    pub(super) fn outline_of<'p, 'l>(
+        &self,
+        update: &Update,
+        (layers, visibility): (&'l mut [Source<'p, Dynamic>], Visibility<'p>),
+    ) -> Result<Sources<'p, 'l, Dynamic>, SetupError> {
+        for source in layers.iter_mut() {
+            load(update, source.map_mut());
+            source.begin(self.settings.edge_threshold);
+        }
+        Sources::new(layers, visibility)
+    }
+
+    /// Makes the picture of a frame.
+    fn paint(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>, canvas: &mut Canvas) {
         let Canvas { gathered, finished, known, depths, pyramid } = canvas;
         let width = grid.width() as usize;
         let gather = Gather {
@@ -132,8 +189,13 @@ impl Engine {
             sub_cell: self.scan_out == ScanOut::SubCell,
             edge_threshold: self.settings.edge_threshold,
         };
-        let holes: u32 = (0..).zip(gathered.chunks_mut(width)).map(|(y, row)| sources.gather(y, gather, row)).sum();
+        for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
+            sources.gather(y, gather, row);
+        }
         if let Some(inpaint) = self.inpaint {
+            let inside = |cell: &usize| in_fovea_of(grid, inpaint.fovea, *cell);
+            let extended: Vec<(usize, u32)> =
+                (0..gathered.len()).filter(inside).map(|cell| (cell, gathered[cell])).collect();
             known.fill(0);
             for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
                 sources.known(y, known, depths);
@@ -155,6 +217,10 @@ impl Engine {
             {
                 push_pull.fill_picture(&mut picture, &inpainting);
             }
+            // Inside of the fovea the fill mode's colours stay.
+            for &(cell, colour) in &extended {
+                gathered[cell] = colour;
+            }
         }
         if gather.sub_cell {
             let row = |y: Option<usize>| y.and_then(|y| gathered.chunks(width).nth(y)).unwrap_or_default();
@@ -165,6 +231,13 @@ impl Engine {
         } else {
             finished.copy_from_slice(gathered);
         }
-        holes
     }
+}
+
+/// Returns whether a cell of a map lies in a disc of this radius in the middle of the display.
+fn in_fovea_of(grid: &Grid<'_>, fovea: Option<u32>, cell: usize) -> bool {
+    let (margin, width) = (grid.margin(), grid.width() as usize);
+    let [x, y] = [(cell % width).wrapping_sub(margin.left as usize), (cell / width).wrapping_sub(margin.top as usize)];
+    let (columns, rows) = (grid.display_width() as usize, grid.display_height() as usize);
+    fovea.is_some() && x < columns && y < rows && in_fovea(fovea, y * columns + x, columns, rows)
 }

@@ -8,28 +8,38 @@ use crate::picture::Picture;
 use crate::source::Source;
 use crate::update::{Truth, Update};
 
+/// Which cells hold a galpixel of the update.
+pub(super) struct Reached<'r> {
+    /// In the scheme that was run.
+    pub reached: &'r [bool],
+    /// As [`Frame::outline`]: the same for all schemes and fills.
+    pub outline: &'r [bool],
+}
+
 /// Which cells of a frame count, and for what.
 struct Cells {
     /// Reached by a galpixel of the update.
     known: Vec<bool>,
-    /// Missing in connection with the border: what enters there is known to nobody.
+    /// Missing in connection with the border.
     at_border: Vec<bool>,
-    /// All others, missing or not.
+    /// All but those that are missing in connection with the border in the outline: what enters there is known to
+    /// nobody.
     inside: Vec<bool>,
     missing: usize,
 }
 
 impl Cells {
-    fn of(truth: &Truth, reached: &[bool]) -> Self {
+    fn of(truth: &Truth, &Reached { reached, outline }: &Reached<'_>) -> Self {
         let counted = |cell: usize| truth.mask.as_ref().is_none_or(|mask| mask[cell]);
         let which = |of: &dyn Fn(usize) -> bool| -> Vec<bool> {
             (0..reached.len()).map(|cell| counted(cell) && of(cell)).collect()
         };
         let missing = which(&|cell| !reached[cell]);
-        let at_border = area::at_border(&missing, truth.picture.width, truth.picture.height);
+        let border = |missing: &[bool]| area::at_border(missing, truth.picture.width, truth.picture.height);
+        let (at_border, outside) = (border(&missing), border(&which(&|cell| !outline[cell])));
         Self {
             known: which(&|cell| reached[cell]),
-            inside: which(&|cell| !at_border[cell]),
+            inside: which(&|cell| !outside[cell]),
             missing: count(&missing),
             at_border,
         }
@@ -66,8 +76,8 @@ impl<'h> Comparison<'h> {
         Self { hold, perceptual, before }
     }
 
-    /// Compares a shown picture with the truth. `reached`: whether a galpixel of the update reached each cell.
-    pub(super) fn frame(&mut self, frame: u32, picture: &Picture, truth: &Truth, reached: &[bool]) -> TruthReport {
+    /// Compares a shown picture with the truth.
+    pub(super) fn frame(&mut self, frame: u32, picture: &Picture, truth: &Truth, reached: &Reached<'_>) -> TruthReport {
         let cells = Cells::of(truth, reached);
         let mask = truth.mask.as_deref();
         let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {

@@ -7,8 +7,8 @@ mod work;
 use galpix_core::{Format, Tally};
 
 pub use super::job::{ExperimentError, Request, check_strategy};
-use compare::Comparison;
 pub(crate) use compare::position;
+use compare::{Comparison, Reached};
 pub use report::{BudgetReport, ChangeReport, FrameReport, PositionReport, RunReport, TruthReport};
 pub use work::work_gain;
 
@@ -53,13 +53,20 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     let hold = update.picture();
     let mut comparison = Comparison::new(&hold, request.perceptual);
     let mut reports = Vec::with_capacity(*frames as usize);
-    let ran = job.engine().run_layers(&carried.base, &hidden, *frames, |frame| {
+    let ran = job.engine().outlined().run_layers(&carried.base, &hidden, *frames, |frame| {
         let picture = frame.picture();
         let truth = source.truth(frame.number);
         let reached = frame.reached();
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
-            let truth = truth.map(|truth| comparison.frame(frame.number, &picture, &truth, &reached));
+            let truth = truth.map(|truth| {
+                comparison.frame(
+                    frame.number,
+                    &picture,
+                    &truth,
+                    &Reached { reached: &reached, outline: &frame.outline() },
+                )
+            });
             let position = compare::position(source, update, frame, |origin| carried.first(origin));
             let report = report(frame, position, truth);
             let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;
