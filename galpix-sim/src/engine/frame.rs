@@ -98,6 +98,15 @@ impl Frame<'_> {
         display_cells(self.grid()).map(|cell| self.origins[cell as usize])
     }
 
+    /// Returns the map; `None` in the scheme of stationary sources.
+    #[must_use]
+    pub const fn map(&self) -> Option<&Galpixmap<'_, Dynamic>> {
+        match &self.shown {
+            Shown::Map { map, .. } => Some(*map),
+            Shown::Sources { .. } => None,
+        }
+    }
+
     /// Returns every galpixel that is still there, of stationary sources every one on the map.
     #[must_use]
     pub fn places(&self) -> Vec<Place> {

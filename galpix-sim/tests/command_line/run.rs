@@ -115,6 +115,53 @@ fn every_fill_mode_and_rounding_is_known_by_name() {
     }
 }
 
+/// Samples that stay wear nothing out: pictures come nearer to the truth, fewer cells are missing, what moves slowly slides.
+#[test]
+fn stationary_sources_come_nearer_to_the_truth_than_the_map() {
+    let folder = folder();
+    let marbles = marbles().display().to_string();
+    for (source, gain) in [(&*marbles, 1.5), ("ball", 5.0), ("disc", 1.0), ("sphere", 1.0), ("near-plane", 1.0)] {
+        let [map, sources] = ["map", "source"].map(|scheme| {
+            let arguments = ["run", source, "--scheme", scheme, "--out", scheme, "--json"];
+            let report = json(folder.path(), &arguments);
+            assert_eq!(report["scheme"], scheme);
+            report
+        });
+        assert_eq!([&map["scan_out"], &sources["scan_out"]], ["nearest", "sub-cell"]);
+        assert_eq!([&map["fill"], &sources["fill"]], ["extend", "push-pull"]);
+        let update = |scheme: &str| std::fs::read(folder.path().join(scheme).join("0000.png")).expect("the update");
+        assert_eq!(update("map"), update("source"), "{source}");
+        let mean = |report: &serde_json::Value, key: &str| {
+            let frames = report["frames"].as_array().expect("frames").iter();
+            let values: Vec<f64> = frames.filter_map(|frame| frame["truth"][key].as_f64()).collect();
+            values.iter().sum::<f64>() / values.len() as f64
+        };
+        let [before, after] = [&map, &sources].map(|report| mean(report, "psnr_inside_db"));
+        assert!(after > before + gain, "{source}: {before} dB, stationary sources {after} dB");
+        let [before, after] = [&map, &sources].map(|report| mean(report, "missing"));
+        assert!(after < before, "{source}: {before} cells missing, of stationary sources {after}");
+    }
+    let judder = |frames: &serde_json::Value| frames[1]["truth"]["change"]["judder_px"].as_f64().expect("judder");
+    let [map, sources] =
+        ["map", "source"].map(|scheme| json(folder.path(), &["run", &marbles, "--scheme", scheme, "--json"]));
+    assert!(judder(&sources["frames"]) < judder(&map["frames"]) / 3.0);
+}
+
+#[test]
+fn what_stationary_sources_do_not_have_is_refused_and_what_they_have_is_named() {
+    let folder = folder();
+    for fill in ["debris", "bullet", "galdebris", "metamer"] {
+        refused(folder.path(), &["run", "ball", "--scheme", "source", "--fill", fill], &[fill, "push-pull", "map"]);
+    }
+    refused(folder.path(), &["run", "ball", "--scheme", "source", "--reach", "2"], &["--reach", "map"]);
+    refused(folder.path(), &["run", "ball", "--scheme", "paint"], &["map", "source"]);
+    for fill in ["none", "hold", "extend", "push-pull"] {
+        let report =
+            json(folder.path(), &["run", "hud", "--scheme", "source", "--frames", "3", "--fill", fill, "--json"]);
+        assert_eq!(report["fill"], fill);
+    }
+}
+
 /// The frames stay what they are, the pictures of what moves come nearer to the truth, the update stays as it is.
 #[test]
 fn sub_cell_scan_out_changes_what_is_shown_and_nothing_else() {

@@ -1,7 +1,7 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
 //! `proof_*` must reach no panic, no multiplication, no division and no float, but for those that inpaint, go over
-//! layers, resample rows, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no
+//! layers, resample rows, show stationary sources, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no
 //! panic. `planted_*` each reach one of these on purpose, so that the inspection is seen to find it. All arguments are
 //! opaque to the optimiser: maps, scratch memory and settings come from outside.
 
@@ -13,6 +13,7 @@ use galpix_core::layers::Layers;
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
+use galpix_core::source::{Gather, Sources};
 use galpix_core::{
     Bits, Controller, Demand, Galpixmap, Inpainting, Layout, Profile, Rounding, Scratch, Settings, Static, Tally,
     scan_out, stages, sub_cell,
@@ -158,6 +159,32 @@ macro_rules! passes {
                 for (word, colour) in line.iter_mut().zip(sub_cell::row(map, edge_threshold, y)) {
                     *word = colour as u16;
                 }
+            }
+
+            /// A frame of stationary sources, and an update before it.
+            #[unsafe(export_name = concat!("proof_sources_", stringify!($name)))]
+            pub fn sources(sources: &mut Sources<'_, '_, Format>, settings: &Settings, layer: usize) -> Tally {
+                if let Some(source) = sources.layer_mut(layer) {
+                    source.begin(settings.edge_threshold);
+                    sources.show(settings);
+                }
+                sources.step(settings)
+            }
+
+            /// Rows of them: gathered, what is known of them, and finished.
+            #[unsafe(export_name = concat!("proof_source_rows_", stringify!($name)))]
+            pub fn source_rows(
+                sources: &Sources<'_, '_, Format>,
+                y: u32,
+                gather: Gather,
+                lines: [&mut [u32]; 3],
+                finished: &mut [u32],
+            ) -> Option<(usize, u32)> {
+                let [above, row, below] = lines;
+                sources.gather(y, gather, row);
+                sources.known(y, above, below);
+                sources.finish(y, gather.edge_threshold, [above, row, below], finished);
+                sources.shown(y)
             }
 
             /// The row as it is, under an overlay.

@@ -17,7 +17,9 @@ fn run(update: &Update, fill: Fill, mut visit: impl FnMut(u32, galpix_sim::pictu
     let settings = Settings { fill_mode: fill.mode(), ..Settings::for_depth(u32::from(format.record().depth().bits)) };
     let engine = Engine::new(format, settings).inpainting(fill.inpaint());
     engine
-        .run(update, 24, |frame| visit(frame.number, frame.picture(), words(frame.map()), frame.reached()))
+        .run(update, 24, |frame| {
+            visit(frame.number, frame.picture(), words(frame.map().expect("a map")), frame.reached())
+        })
         .expect("it runs");
 }
 
