@@ -149,6 +149,10 @@ impl Links<'_> {
     pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
         const RIGHT: u32 = 0x3333_3333;
         const LOWER: u32 = 0x1111_1111;
+        // The quad before the first sample lies outside of the grid.
+        if (cell / WORD) as usize >= self.words.len() {
+            return false;
+        }
         let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
         let (mut missing, mut done) = (0, 0);
         while done <= count {
