@@ -403,7 +403,8 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 for (((&own, &right), &below), flag) in lanes.zip(&mut flags) {
                     let across = (right.wrapping_sub(own) as i32).wrapping_add(cell[0]);
                     let down = (below.wrapping_sub(own) as i32).wrapping_add(cell[1]);
-                    let stretched = across.abs().max(down.abs()) > STRETCHED;
+                    // Where there was no sample the line may hold any number.
+                    let stretched = across.wrapping_abs().max(down.wrapping_abs()) > STRETCHED;
                     *flag |= u8::from(stretched);
                     any |= u8::from(stretched);
                 }
