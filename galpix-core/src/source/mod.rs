@@ -30,6 +30,9 @@ pub(crate) mod row;
 pub(crate) mod scatter;
 pub(crate) mod visibility;
 
+#[cfg(test)]
+mod tests;
+
 pub use layer::Source;
 pub use links::words as link_words;
 pub use row::Gather;
