@@ -1,6 +1,8 @@
 //! Stationary sources: the fast passes against their references, small budgets exhaustively, and what is seen.
 
 mod equal;
+mod exact;
+mod order;
 mod setup;
 
 extern crate std;
