@@ -13,11 +13,12 @@ use crate::format::rounding::Rounding;
 use crate::frame::resolve;
 use crate::frame::step::{advance, thresholds};
 use crate::frame::tally::Tally;
-use crate::layers::{displacement, displacement_word};
+use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
 use crate::source::layer::{CORNER_PARTS, parts};
 use crate::source::quads::{self, STRETCHED};
+use crate::source::scatter::moved;
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
 
 /// What a chunk shows. The memory is reused for all chunks.
@@ -235,8 +236,9 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 continue;
             }
             let [x, y] = displacement(before);
-            *after = displacement_word([x + dx, y + dy]);
-            self.tally.saturated += u32::from(displacement(*after) != [x + dx, y + dy]);
+            let clamped;
+            (*after, clamped) = moved([x + dx, y + dy]);
+            self.tally.saturated += clamped;
         }
     }
 
