@@ -96,16 +96,14 @@ impl Cracks<'_> {
             return false;
         }
         let links = self.layers[layer as usize];
-        while x != to_x {
+        while [x, y] != [to_x, to_y] {
             let next = x + (to_x - x).signum();
-            if !links.right((y * width + x.min(next)) as u32) {
+            if x != next && !links.right((y * width + x.min(next)) as u32) {
                 return false;
             }
             x = next;
-        }
-        while y != to_y {
             let next = y + (to_y - y).signum();
-            if !links.below((y.min(next) * width + x) as u32) {
+            if y != next && !links.below((y.min(next) * width + x) as u32) {
                 return false;
             }
             y = next;
@@ -121,7 +119,7 @@ impl Cracks<'_> {
         if !f.is_some() || !g.is_some() || !is_nearer(f) || !is_nearer(g) {
             return None;
         }
-        if (f.depth() - g.depth()).abs() > self.threshold || !self.joined(f, g) {
+        if !self.joined(f, g) {
             return None;
         }
         let [[fu, fv], [gu, gv]] = [f.residual(), g.residual()];
