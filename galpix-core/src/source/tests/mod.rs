@@ -3,6 +3,7 @@
 mod equal;
 mod exact;
 mod order;
+mod pictures;
 mod setup;
 
 extern crate std;
