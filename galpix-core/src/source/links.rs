@@ -143,8 +143,8 @@ impl Links<'_> {
         ((word(cell / WORD) | word(cell / WORD + 1) << 32) >> ((cell % WORD) << 2)) as u32
     }
 
-    /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of their
-    /// samples lies beside a nearer surface.
+    /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of
+    /// their samples lies beside a nearer surface.
     #[inline(always)]
     pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
         const RIGHT: u32 = 0x3333_3333;

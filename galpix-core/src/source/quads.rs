@@ -127,11 +127,8 @@ mod tests {
     fn a_reciprocal_is_that_of_seven_bits() {
         for area in 1i32..1 << 17 {
             let k = area.ilog2() + 1;
-            let expected = if k >= 7 {
-                (1 << 20) / (area >> (k - 7)) >> (k - 7)
-            } else {
-                (1 << 20) / (area << (7 - k)) << (7 - k)
-            };
+            let (shift, up) = (k.saturating_sub(7), 7u32.saturating_sub(k));
+            let expected = (((1 << 20) / ((area >> shift) << up)) >> shift) << up;
             assert_eq!(reciprocal(area), expected, "{area}");
         }
     }

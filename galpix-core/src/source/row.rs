@@ -47,10 +47,10 @@ impl<F: Format> Sources<'_, '_, F> {
         F::sources_known(self, y, known, depths);
     }
 
-    /// Returns the colour words of row `y` of the map from the gathered and filled ones of the row above, the row itself
-    /// and the row below: where a surface ends within a cell, what is beside or behind it covers a part of the cell.
-    /// Beyond the border of the map a row is empty. Nothing is written if there is no such row, or if the row itself or
-    /// `colours` is too short.
+    /// Returns the colour words of row `y` of the map from the gathered and filled ones of the row above, the row
+    /// itself and the row below: where a surface ends within a cell, what is beside or behind it covers a part of the
+    /// cell. Beyond the border of the map a row is empty. Nothing is written if there is no such row, or if the row
+    /// itself or `colours` is too short.
     pub fn finish(&self, y: u32, edge_threshold: u32, gathered: [&[u32]; 3], colours: &mut [u32]) {
         F::sources_finish(self, y, edge_threshold, gathered, colours);
     }

@@ -9,11 +9,15 @@ use crate::source::row::{self, Finish, GatherRow};
 use crate::source::scatter;
 use crate::source::visibility::{Entry, threshold};
 
+type Scatter<F> = fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally;
+
+type GatherForm<F> = fn(&[Source<'_, F>], &Visibility<'_>, u32, &GatherRow, &mut [u32]);
+
 /// All passes of a frame in one form.
 struct Forms<F> {
-    scatter: fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally,
+    scatter: Scatter<F>,
     close: fn(&[Source<'_, F>], &mut Visibility<'_>, i32) -> Closed,
-    gather: fn(&[Source<'_, F>], &Visibility<'_>, u32, &GatherRow, &mut [u32]),
+    gather: GatherForm<F>,
     finish: fn(&Sources<'_, '_, F>, &Finish<'_>, &mut [u32]),
 }
 

@@ -179,14 +179,14 @@ fn set_links(source: &mut Source<'_, Dynamic>, bits: u32) {
     for cell in 0..grid.cells() {
         let right = cell % grid.width() + 1 < grid.width() && bits >> (2 * cell) & 1 != 0;
         let below = cell / grid.width() + 1 < grid.height() && bits >> (2 * cell + 1) & 1 != 0;
-        let links = u32::from(right) * 0b0011 | u32::from(below) * 0b1100;
+        let links = (u32::from(right) * 0b0011) | (u32::from(below) * 0b1100);
         source.links[cell as usize / 8] |= links << (cell % 8 * 4);
     }
 }
 
 /// An entry whose key is one of 13.
 fn entry(key: u32, sample: u32, residual: [i32; 2]) -> Entry {
-    let kind = if key % 2 == 0 { Kind::Quad } else { Kind::Point };
+    let kind = if key.is_multiple_of(2) { Kind::Quad } else { Kind::Point };
     match key / 2 {
         6 => Entry::NONE,
         5 => Entry::new(FARTHEST, kind, sample, residual),

@@ -184,13 +184,13 @@ fn random_layer(random: &mut Random, shape: Shape, format: Dynamic, look: Look) 
         if look == Look::Grown || look == Look::Far {
             let step = if is_odd { 40 } else { 0 };
             record.depth().set(&mut words, (base + step + slope[0] * x + slope[1] * y).max(0) as u32);
-            for component in 0..2 {
+            for (component, grown) in grown.into_iter().enumerate() {
                 let field = record.offset(component);
                 // The low 6 bits of what has grown are the part of a cell.
-                let part = (grown[component] & 63) - if grown[component] & 32 == 0 { 0 } else { 64 };
+                let part = (grown & 63) - if grown & 32 == 0 { 0 } else { 64 };
                 let bits = u32::from(field.bits);
                 field.set(&mut words, if bits > 6 { part << (bits - 6) } else { part >> (6 - bits) } as u32);
-                record.velocity(component).set(&mut words, grown[component] as u32);
+                record.velocity(component).set(&mut words, grown as u32);
                 record.acceleration(component).set(&mut words, random.below(4) / 3);
             }
         } else {

@@ -241,7 +241,10 @@ fn thin_lines_keep_their_mean() {
             run((20, 20), list, 4, |frame, sources, _| {
                 let rows = picture(sources, FillMode::Extend);
                 for line in 4..17 {
-                    let at = |part: usize| if is_upright { rows[line][part] } else { rows[part][line] };
+                    let at = |part: usize| {
+                        let [x, y] = if is_upright { [part, line] } else { [line, part] };
+                        rows[y][x]
+                    };
                     let dark: u32 = (4..18).map(|part| 220 - at(part)).sum();
                     assert!(dark.abs_diff(600) <= 3, "frame {frame}, line {line}: {dark}, {is_upright} {depth}");
                     // Half of a line in each of two cells.
