@@ -188,6 +188,65 @@ fn formats_fixed_at_compile_time_give_the_same_bits() {
     }
 }
 
+/// Velocities of up to 2^22 cells a frame: a step may be of more cells than a displacement holds.
+#[test]
+fn steps_of_any_number_of_cells_give_the_same_bits() {
+    let (mut random, mut seen) = (Random(4), Seen::default());
+    let component = Component { position_frac: 3, velocity_int: 23, ..BITS.x };
+    let format = Dynamic::new(BITS.with_xy(component, component), Layout::FULL).unwrap();
+    for shape in SHAPES {
+        for look in LOOKS.into_iter().cycle().take(10) {
+            let layers = [random_layer(&mut random, shape, format, look)];
+            compare(shape, format, &layers, 1024, &mut seen);
+        }
+    }
+    // In x, 2^16 and one cell, which is one cell but for the bits that a displacement lacks; in y none.
+    for (cells, ends) in [(65537, 32767), (-65535, -32768), (32768, 32767), (-32769, -32768), (32767, 32767)] {
+        let shape = (65, 2, Margin::NONE);
+        let mut layers = [drawn(shape, format, |_, _| gray(9, 0.5, [f64::from(cells), 0.0]))];
+        compare(shape, format, &layers, 1024, &mut seen);
+        with_sources(shape, format, &mut layers, &mut Random(1), |sources| {
+            sources.layers[0].begin(1024);
+            let tally = sources.step(&crate::Settings::for_depth(16));
+            let clamped = u32::from(cells != ends) * 130;
+            assert_eq!((tally.moved, tally.lost, tally.saturated), (130, 130, clamped));
+            assert!((0..130).all(|cell| sources.layers[0].displacement(cell) == [ends, 0]));
+        });
+    }
+}
+
+/// A near block leaves a picture whose samples beside it a renderer has mixed: at each of the block's sides, with
+/// residuals of all signs.
+#[test]
+fn samples_beside_a_surface_that_has_gone_are_unmixed_alike() {
+    let format = format(4, Layout { colour: Colour::GRAY8, ..Layout::FULL });
+    let shape = (110, 40, Margin::NONE);
+    let (block_x, block_y) = (30..80, 15..25);
+    let mut seen = Seen::default();
+    for slides in [[0.3, 0.3], [-0.3, 0.3], [0.3, -0.3], [-0.3, -0.3], [0.0, 0.3], [0.0, -0.3], [0.3, 0.0]] {
+        let picture = |x: i32, y: i32| {
+            let is_near = |x, y| block_x.contains(&x) && block_y.contains(&y);
+            let is_beside = is_near(x - 1, y) || is_near(x + 1, y) || is_near(x, y - 1) || is_near(x, y + 1);
+            match (is_near(x, y), is_beside) {
+                (true, _) => gray(220, 0.25, [-20.0, 24.0]),
+                (false, true) => gray(150, 0.75, slides),
+                (false, false) => gray(100, 0.75, slides),
+            }
+        };
+        let mut layers = [drawn(shape, format, picture)];
+        compare(shape, format, &layers, 1024, &mut seen);
+        with_sources(shape, format, &mut layers, &mut Random(1), |sources| {
+            sources.layers[0].begin(1024);
+            sources.step(&crate::Settings::for_depth(16));
+            let threshold = threshold(1024, 16);
+            let (rows, _) = shown(&Forms::fast(), sources, threshold);
+            // A sample that is unmixed has at least half of the weight.
+            let brightest = rows[1].iter().flatten().filter(|&&colour| colour != 220).max();
+            assert!(brightest.is_some_and(|&brightest| brightest <= 125), "{slides:?}: {brightest:?}");
+        });
+    }
+}
+
 /// What is stored in links is only written by `begin`, but whatever it is, nothing panics; and as long as no link leads
 /// out of the map, rows are gathered, closed and finished alike.
 #[test]
