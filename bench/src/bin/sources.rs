@@ -5,7 +5,8 @@
 //! taskset -c 1 cargo run --release -p galpix-bench --bin sources -- 320x240 31  # pinned to a core
 //! ```
 //!
-//! A map is stepped with extend and shown nearest, or sub-cell; sources are stepped, gathered with extend, and finished.
+//! A map is stepped with extend and shown nearest, or sub-cell; sources are stepped, gathered with extend, and
+//! finished.
 //! The columns are described in `race.rs`; `x faster` is measured against the step of the map.
 
 use std::cell::RefCell;

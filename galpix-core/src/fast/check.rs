@@ -18,6 +18,9 @@ use crate::frame::tally::Tally;
 use crate::frame::{self, Scratch, Settings, edge, reference};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
+use crate::source::row::{self, Finish, GatherRow};
+use crate::source::visibility::EMPTY;
+use crate::source::{self, Source, Sources, Visibility};
 
 /// Maps of up to this number of cells are small.
 const SMALL: u32 = 1 << 13;
@@ -151,6 +154,89 @@ pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scr
             super::fill::fill_bullets(back, scratch, reach, tally)
         }],
     );
+}
+
+/// A form of [`super::scatter`].
+type Scatter<F> = fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally;
+
+/// Runs a pass on a copy of a visibility buffer over the grid of a map. Returns keys and words of the copy afterwards,
+/// and what the pass returned.
+fn on_copied_visibility<F: Format, R>(
+    map: &Galpixmap<'_, F>,
+    visibility: &mut Visibility<'_>,
+    pass: impl FnOnce(&mut Visibility<'_>) -> R,
+) -> (Vec<u16>, Vec<u32>, R) {
+    let (keys, words, line) = visibility.planes();
+    let (mut keys, mut words, mut line) = (keys.to_vec(), words.to_vec(), line.to_vec());
+    let mut copy = Visibility::new(map.grid(), &mut keys, &mut words, &mut line).expect("a copy is as long");
+    let result = pass(&mut copy);
+    (keys, words, result)
+}
+
+/// Compares what both forms store and show of the samples of a layer.
+pub(crate) fn scatter<F: Format>(
+    source: &Source<'_, F>,
+    visibility: &mut Visibility<'_>,
+    first: u32,
+    edge_threshold: u32,
+    step: Option<(Rounding, u32)>,
+) {
+    let map = source.map();
+    if !due(map.grid().cells()) {
+        return;
+    }
+    let mut made = |scatter: Scatter<F>| {
+        on_copied_visibility(map, visibility, |visibility| {
+            let (mut memory, mut displacements) = (words(map), source.displacements.to_vec());
+            let mut links = source.links.to_vec();
+            let copy = Galpixmap::over(*map.grid(), map.format(), &mut memory).expect("a copy is as long");
+            let mut copy = Source::new(copy, &mut displacements, &mut links).expect("a copy is as long");
+            let tally = scatter(&mut copy, visibility, first, edge_threshold, step);
+            (memory, displacements, links, tally)
+        })
+    };
+    let expected = made(source::scatter);
+    assert_eq!(made(wide::source::scatter::scatter), expected, "the fast form of the steps and entries of samples");
+}
+
+/// Compares what both forms show where cracks are closed.
+pub(crate) fn close_cracks<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) {
+    let Some(map) = sources.first().map(Source::map).filter(|map| due(map.grid().cells())) else { return };
+    let expected = on_copied_visibility(map, visibility, |copy| source::cracks::close(sources, copy, threshold));
+    let made = on_copied_visibility(map, visibility, |copy| wide::source::cracks::close(sources, copy, threshold));
+    assert_eq!(made, expected, "the fast form of closing cracks");
+}
+
+/// Compares the colours that both forms gather in the cells of a row that show a sample.
+pub(crate) fn gather_row<F: Format>(
+    layers: &[Source<'_, F>],
+    visibility: &Visibility<'_>,
+    start: u32,
+    gather: &GatherRow,
+    colours: &[u32],
+) {
+    if !due(colours.len() as u32) {
+        return;
+    }
+    let (keys, _) = visibility.cells_from(start, colours.len());
+    let shown = |colours: Vec<u32>| -> Vec<_> {
+        keys.iter().zip(colours).map(|(&key, colour)| (key != EMPTY).then_some(colour)).collect()
+    };
+    let (mut expected, mut made) = (colours.to_vec(), colours.to_vec());
+    row::gather_row(layers, visibility, start, gather, &mut expected);
+    wide::source::gather::gather_row(layers, visibility, start, gather, &mut made);
+    assert_eq!(shown(made), shown(expected), "the fast form of a gathered row");
+}
+
+/// Compares the colours of a row that both forms finish.
+pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &[u32]) {
+    if !due(colours.len() as u32) {
+        return;
+    }
+    let (mut expected, mut made) = (colours.to_vec(), colours.to_vec());
+    row::finish_row(sources, finish, &mut expected);
+    wide::source::finish::finish(sources, finish, &mut made);
+    assert_eq!(made, expected, "the fast form of a finished row");
 }
 
 /// The next frame of a [`Rolling`] map, made with two maps.

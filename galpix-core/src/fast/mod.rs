@@ -94,6 +94,8 @@ pub(crate) fn scatter<F: Format>(
     edge_threshold: u32,
     step: Option<(Rounding, u32)>,
 ) -> Tally {
+    #[cfg(feature = "check")]
+    check::scatter(source, visibility, first, edge_threshold, step);
     if VECTORS {
         wide::source::scatter::scatter(source, visibility, first, edge_threshold, step)
     } else {
@@ -107,6 +109,8 @@ pub(crate) fn close_cracks<F: Format>(
     visibility: &mut Visibility<'_>,
     threshold: i32,
 ) -> Closed {
+    #[cfg(feature = "check")]
+    check::close_cracks(sources, visibility, threshold);
     if VECTORS {
         wide::source::cracks::close(sources, visibility, threshold)
     } else {
@@ -122,6 +126,8 @@ pub(crate) fn gather_row<F: Format>(
     gather: &GatherRow,
     colours: &mut [u32],
 ) {
+    #[cfg(feature = "check")]
+    check::gather_row(layers, visibility, start, gather, colours);
     if VECTORS {
         wide::source::gather::gather_row(layers, visibility, start, gather, colours);
     } else {
@@ -131,6 +137,8 @@ pub(crate) fn gather_row<F: Format>(
 
 /// Finishes a row, see [`row::finish_row`].
 pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &mut [u32]) {
+    #[cfg(feature = "check")]
+    check::finish_row(sources, finish, colours);
     if VECTORS {
         wide::source::finish::finish(sources, finish, colours);
     } else {

@@ -1,6 +1,7 @@
 //! The counts of a frame.
 
-/// The counts of a frame. Each is at most the number of cells; `saturated` counts fields, at most four for each cell.
+/// The counts of a frame. Each is at most the number of cells, or of samples in all layers; `saturated` counts fields,
+/// at most four for each of them, and a displacement as two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Tally {

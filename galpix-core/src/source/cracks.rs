@@ -74,13 +74,13 @@ pub(crate) fn best<F: Format>(
     let limit = if own.is_some() { own.depth() - threshold } else { i32::MAX };
     let mut best = None;
     for (dx, dy) in [(1, 0), (0, 1)] {
-        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], (limit, threshold), best);
+        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit, best);
     }
     for (dx, dy) in [(1, 1), (1, -1)] {
         if best.is_some() {
             break;
         }
-        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], (limit, threshold), best);
+        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit, best);
     }
     best.map(|(_, entry)| entry)
 }
@@ -94,11 +94,10 @@ fn closing<F: Format>(
     sources: &[Source<'_, F>],
     [a, b]: [Entry; 2],
     towards: [i32; 2],
-    (limit, threshold): (i32, i32),
+    limit: i32,
     best: Best,
 ) -> Best {
-    let (nearest, farthest) = (a.depth().min(b.depth()), a.depth().max(b.depth()));
-    if !a.is_some() || !b.is_some() || farthest >= limit || farthest - nearest > threshold {
+    if !a.is_some() || !b.is_some() || a.depth().max(b.depth()) >= limit {
         return best;
     }
     if !joined(sources, a.sample(), b.sample()) {
@@ -114,8 +113,7 @@ fn closing<F: Format>(
     if best.is_none_or(|best| nearer.0 < best.0) { Some(nearer) } else { best }
 }
 
-/// Returns whether two samples are the same, or are linked by a path: first along the row of the first one, then along
-/// the column of the other.
+/// Returns whether two samples are the same, or are linked by a path, see [`path`].
 fn joined<F: Format>(sources: &[Source<'_, F>], a: u32, b: u32) -> bool {
     let Some((source, first, _)) = super::layer_of(sources, a.min(b)) else { return false };
     let links = source.links();
@@ -129,24 +127,28 @@ fn joined<F: Format>(sources: &[Source<'_, F>], a: u32, b: u32) -> bool {
     })
 }
 
-/// Returns whether links lead from a sample `across` samples along its row, and from there `down` samples, which are
-/// whole rows, along the column.
+/// Returns whether links lead from a sample `across` samples along its row and `down` samples, which are whole rows,
+/// along the column: in turns one sample along the row and one along the column, as long as there are any left.
+///
+/// So the path between opposite corners leads through what lies between them, and a hole of one cell, around which all
+/// samples are linked, is no crack.
 fn path(links: Links<'_>, from: u32, across: i32, down: i32) -> bool {
-    let corner = from.wrapping_add_signed(across);
-    let to = corner.wrapping_add_signed(down);
-    let (mut at, end) = (from.min(corner), from.max(corner));
-    while at != end {
-        if !links.right(at) {
-            return false;
+    let width = links.width as i32;
+    let (step_x, step_y) = (across.signum(), down.signum() * width);
+    let (mut at, mut left_x, mut left_y) = (from, across.abs(), down.abs());
+    while left_x | left_y != 0 {
+        if left_x != 0 {
+            let Some(next) = at.checked_add_signed(step_x).filter(|&next| links.right(at.min(next))) else {
+                return false;
+            };
+            (at, left_x) = (next, left_x - 1);
         }
-        at += 1;
-    }
-    let (mut at, end) = (corner.min(to), corner.max(to));
-    while at != end {
-        if !links.below(at) {
-            return false;
+        if left_y != 0 {
+            let Some(next) = at.checked_add_signed(step_y).filter(|&next| links.below(at.min(next))) else {
+                return false;
+            };
+            (at, left_y) = (next, left_y - width);
         }
-        at += links.width;
     }
     true
 }

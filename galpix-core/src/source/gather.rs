@@ -60,8 +60,8 @@ pub(crate) fn colour<F: Format>(
 }
 
 /// Returns the colour word of a sample. Beside a nearer surface a renderer may have mixed the colours of both: if the
-/// colour lies between that of the nearer surface and that of the neighbour on the other side, and the nearer surface is
-/// not seen there any more, it is the neighbour's. Of several neighbours it is the one whose colour differs most.
+/// colour lies between that of the nearer surface and that of the neighbour on the other side, and the nearer surface
+/// is not seen there any more, it is the neighbour's. Of several neighbours it is the one whose colour differs most.
 #[inline(always)]
 fn unmixed<F: Format>(source: &Source<'_, F>, cell: u32, in_front: impl Fn(u32, Side) -> bool) -> u32 {
     let (map, links) = (&source.map, source.links());

@@ -143,12 +143,16 @@ impl Links<'_> {
         ((word(cell / WORD) | word(cell / WORD + 1) << 32) >> ((cell % WORD) << 2)) as u32
     }
 
-    /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of their
-    /// samples lies beside a nearer surface.
+    /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of
+    /// their samples lies beside a nearer surface.
     #[inline(always)]
     pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
         const RIGHT: u32 = 0x3333_3333;
         const LOWER: u32 = 0x1111_1111;
+        // The quad before the first sample lies outside of the grid.
+        if (cell / WORD) as usize >= self.words.len() {
+            return false;
+        }
         let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
         let (mut missing, mut done) = (0, 0);
         while done <= count {

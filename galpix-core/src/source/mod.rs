@@ -20,6 +20,43 @@
 //!
 //! *Memory* per sample: the galpixel, a word for its displacement, and half a byte for its links; per cell of the
 //! display 6 bytes.
+//!
+//! ```
+//! use galpix_core::fixed::types::I32F32;
+//! use galpix_core::source::{Gather, Source, Sources, Visibility};
+//! use galpix_core::{Bits, Demand, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Margin, Settings};
+//!
+//! # const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 64, recog: 8, prop: 16 }));
+//! # let format = Dynamic::new(BITS, Layout::FULL).expect("these widths can be stored");
+//! let (mut rows, mut galpixels) = ([0; 1], [0; 8 * 6]);
+//! let grid = Grid::new(6, 1, Margin::NONE, &mut rows)?;
+//! let mut map = Galpixmap::new(grid, format, &mut galpixels)?;
+//! for x in 0..6 {
+//!     // A near white galpixel moves right before a gray picture that is still.
+//!     let background = Galpixel { colour: [100; 3], depth: I32F32::lit("0.75"), ..Galpixel::default() };
+//!     let velocity = [I32F32::ONE, I32F32::ZERO, I32F32::ZERO];
+//!     let near = Galpixel { colour: [255; 3], velocity, ..Galpixel::default() };
+//!     map.store(x, 0, if x == 1 { &near } else { &background });
+//! }
+//!
+//! let (mut displacements, mut links, mut keys, mut words, mut line) = ([0; 6], [0; 1], [0; 6], [0; 6], [0; 24]);
+//! let settings = Settings::for_depth(16);
+//! let mut layers = [Source::new(map, &mut displacements, &mut links)?];
+//! layers[0].begin(settings.edge_threshold);
+//! let mut sources = Sources::new(&mut layers, Visibility::new(&grid, &mut keys, &mut words, &mut line)?)?;
+//!
+//! // In two frames it has passed over one galpixel, which is seen again. What was behind it is not known.
+//! sources.step(&settings);
+//! let tally = sources.step(&settings);
+//! assert_eq!((tally.moved, tally.collided, tally.holes), (6, 1, 1));
+//! assert_eq!([sources.shown(2), sources.shown(3), sources.shown(1)], [Some((0, 2)), Some((0, 1)), None]);
+//!
+//! let gather = Gather { fill_mode: FillMode::Extend, sub_cell: true, edge_threshold: settings.edge_threshold };
+//! let mut colours = [0; 6];
+//! assert_eq!(sources.gather(0, gather, &mut colours), 1);
+//! assert_eq!(colours, [0x646464, 0x646464, 0x646464, 0xffffff, 0x646464, 0x646464]);
+//! # Ok::<(), galpix_core::SetupError>(())
+//! ```
 
 pub(crate) mod cracks;
 pub(crate) mod gather;
@@ -29,6 +66,9 @@ pub(crate) mod quads;
 pub(crate) mod row;
 pub(crate) mod scatter;
 pub(crate) mod visibility;
+
+#[cfg(test)]
+mod tests;
 
 pub use layer::Source;
 pub use links::words as link_words;

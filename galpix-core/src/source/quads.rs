@@ -124,6 +124,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_reciprocal_is_that_of_seven_bits() {
+        for area in 1i32..1 << 17 {
+            let k = area.ilog2() + 1;
+            let (shift, up) = (k.saturating_sub(7), 7u32.saturating_sub(k));
+            let expected = (((1 << 20) / ((area >> shift) << up)) >> shift) << up;
+            assert_eq!(reciprocal(area), expected, "{area}");
+        }
+    }
+
+    #[test]
     fn a_reciprocal_is_right_to_a_sixtieth() {
         for number in SMALLEST..1 << 16 {
             let exact = f64::from(1 << RECIPROCAL) / f64::from(number);

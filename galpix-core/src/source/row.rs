@@ -34,7 +34,7 @@ pub(crate) struct GatherRow {
 
 impl<F: Format> Sources<'_, '_, F> {
     /// Gathers the colour words of row `y` of the map, margin included, into `colours`; returns how many cells show no
-    /// sample.
+    /// sample. Nothing is written if there is no such row, or if `colours` is too short.
     pub fn gather(&self, y: u32, gather: Gather, colours: &mut [u32]) -> u32 {
         F::sources_gather(self, y, gather, colours)
     }
@@ -47,9 +47,10 @@ impl<F: Format> Sources<'_, '_, F> {
         F::sources_known(self, y, known, depths);
     }
 
-    /// Returns the colour words of row `y` of the map from the gathered and filled ones of the row above, the row itself
-    /// and the row below: where a surface ends within a cell, what is beside or behind it covers a part of the cell.
-    /// Beyond the border of the map a row is empty.
+    /// Returns the colour words of row `y` of the map from the gathered and filled ones of the row above, the row
+    /// itself and the row below: where a surface ends within a cell, what is beside or behind it covers a part of the
+    /// cell. Beyond the border of the map a row is empty. Nothing is written if there is no such row, or if the row
+    /// itself or `colours` is too short.
     pub fn finish(&self, y: u32, edge_threshold: u32, gathered: [&[u32]; 3], colours: &mut [u32]) {
         F::sources_finish(self, y, edge_threshold, gathered, colours);
     }
@@ -166,7 +167,9 @@ pub(crate) fn finish<F: Format>(
     gathered: [&[u32]; 3],
     colours: &mut [u32],
 ) {
-    let Some(map) = sources.base() else { return };
+    let Some(map) = sources.base().filter(|map| map.grid().row(y as i32).is_some()) else { return };
+    let width = map.grid().width() as usize;
+    let Some(colours) = colours.get_mut(..width).filter(|_| gathered[1].len() >= width) else { return };
     let threshold = threshold(edge_threshold, map.record().depth().bits.into()) >> 1;
     fast::finish_row(sources, &Finish { grid: *map.grid(), y, threshold, gathered }, colours);
 }

@@ -6,13 +6,22 @@ use crate::format::Format;
 use crate::format::rounding::Rounding;
 use crate::frame::step::{advance, thresholds};
 use crate::frame::tally::Tally;
-use crate::layers::{displacement, displacement_word};
+use crate::layers::{Displacement, displacement, displacement_word};
 use crate::map::galpixel::Class;
+
+/// Returns the word of a displacement, and how many of its two numbers were clamped.
+#[inline(always)]
+pub(crate) fn moved([dx, dy]: Displacement) -> (u32, u32) {
+    let word = displacement_word([dx, dy]);
+    let [x, y] = displacement(word);
+    (word, u32::from(x != dx) + u32::from(y != dy))
+}
 
 /// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them. `first` is the number of
 /// the layer's first sample.
 ///
-/// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last bit.
+/// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last
+/// bit.
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
@@ -38,9 +47,9 @@ pub(crate) fn scatter<F: Format>(
             if let Some(thresholds) = &thresholds {
                 let step = advance::<true>(record, thresholds, &mut words);
                 let [dx, dy] = displacement(*place);
-                let moved = displacement_word([dx + step.dx, dy + step.dy]);
-                tally.saturated += step.saturated() + u32::from(displacement(moved) != [dx + step.dx, dy + step.dy]);
-                *place = moved;
+                let clamped;
+                (*place, clamped) = moved([dx + step.dx, dy + step.dy]);
+                tally.saturated += step.saturated() + clamped;
                 source.map.put(cell, &words);
             }
             tally.moved += 1;

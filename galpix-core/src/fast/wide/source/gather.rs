@@ -56,7 +56,8 @@ struct Run {
 }
 
 impl Run {
-    /// Finds the samples of a run. Returns a bit for each cell whose colour is not that of a quad; empty cells have none.
+    /// Finds the samples of a run. Returns a bit for each cell whose colour is not that of a quad; empty cells have
+    /// none.
     #[inline(always)]
     fn look<F: Format>(&mut self, layers: &[Source<'_, F>], keys: &[u16], words: &[u32]) -> u32 {
         let Some(width) = layers.first().map(|layer| layer.map.grid().width()) else { return 0 };
@@ -108,8 +109,8 @@ impl Run {
         alone
     }
 
-    /// Reads the samples of neighbouring quads in which all cells of the run lie; returns whether they are quads. `word`
-    /// is that of the first cell.
+    /// Reads the samples of neighbouring quads in which all cells of the run lie; returns whether they are quads.
+    /// `word` is that of the first cell.
     #[inline(always)]
     fn read_all<F: Format>(&mut self, layers: &[Source<'_, F>], word: u32) -> bool {
         let Some((layer, first, _)) = layer_of(layers, word >> (2 * RESIDUAL_BITS)) else { return false };

@@ -13,11 +13,12 @@ use crate::format::rounding::Rounding;
 use crate::frame::resolve;
 use crate::frame::step::{advance, thresholds};
 use crate::frame::tally::Tally;
-use crate::layers::{displacement, displacement_word};
+use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
 use crate::source::layer::{CORNER_PARTS, parts};
 use crate::source::quads::{self, STRETCHED};
+use crate::source::scatter::moved;
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
 
 /// What a chunk shows. The memory is reused for all chunks.
@@ -235,8 +236,9 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 continue;
             }
             let [x, y] = displacement(before);
-            *after = displacement_word([x + dx, y + dy]);
-            self.tally.saturated += u32::from(displacement(*after) != [x + dx, y + dy]);
+            let clamped;
+            (*after, clamped) = moved([x + dx, y + dy]);
+            self.tally.saturated += clamped;
         }
     }
 
@@ -403,7 +405,8 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 for (((&own, &right), &below), flag) in lanes.zip(&mut flags) {
                     let across = (right.wrapping_sub(own) as i32).wrapping_add(cell[0]);
                     let down = (below.wrapping_sub(own) as i32).wrapping_add(cell[1]);
-                    let stretched = across.abs().max(down.abs()) > STRETCHED;
+                    // Where there was no sample the line may hold any number.
+                    let stretched = across.wrapping_abs().max(down.wrapping_abs()) > STRETCHED;
                     *flag |= u8::from(stretched);
                     any |= u8::from(stretched);
                 }
