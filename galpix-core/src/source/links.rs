@@ -85,7 +85,7 @@ pub(crate) struct Links<'l> {
 impl Links<'_> {
     /// Returns the four bits of a cell: two for the pair with its right neighbour, two for that with the lower one.
     #[inline(always)]
-    fn of(self, cell: u32) -> u32 {
+    pub(crate) fn of(self, cell: u32) -> u32 {
         self.words.get((cell / WORD) as usize).map_or(0, |word| word >> ((cell % WORD) << 2) & 0b1111)
     }
 
@@ -149,14 +149,15 @@ impl Links<'_> {
     pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
         const RIGHT: u32 = 0x3333_3333;
         const LOWER: u32 = 0x1111_1111;
-        let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
+        // The quad beyond the upper or the left border is no cell.
+        let (above, below) = (cell.wrapping_sub(self.width), cell.wrapping_add(self.width));
         let (mut missing, mut done) = (0, 0);
         while done <= count {
             let part = (count + 1 - done).min(WORD);
             let cells = u32::MAX >> ((WORD - part) << 2);
             // All but the column after the last quad must be linked with the next one.
             let inner = if done + part > count { cells >> 4 } else { cells };
-            let (own, next) = (self.eight(cell + done), self.eight(below + done));
+            let (own, next) = (self.eight(cell.wrapping_add(done)), self.eight(below.wrapping_add(done)));
             missing |= !own & (cells & !RIGHT | inner & RIGHT) | !next & inner & RIGHT;
             // In a pair with the row above the first one is nearer, or in one with the row beyond the second one.
             let before = self.eight(above.wrapping_add(done)) >> 2;
