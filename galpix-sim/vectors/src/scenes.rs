@@ -14,14 +14,30 @@ const PARTS: i32 = 32;
 /// The base-2 logarithm of the parts of a cell in which speeds count here.
 const SPEED: u32 = 8;
 
+/// What a placed surface is like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ground {
+    /// One depth.
+    Level,
+    /// One depth, and cells without a sample.
+    Holes,
+    /// Depths that differ by half the default threshold and all of it, or by a bit more.
+    Rough,
+    /// The greatest depth.
+    Farthest,
+}
+
+/// Differences of depth, in 2^-16 of the range, of which the default threshold is 2^-6.
+const ROUGH: [u32; 5] = [0, 0x200, 0x400, 0x402, 0x202];
+
 /// What a layer shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scene {
     /// Fields as in the other kinds, a few of the displacements large.
     Drawn(Picture),
     /// One surface, placed by a matrix about the middle of the map, row by row, in 32nds of a cell; places are off by
-    /// up to so many 32nds. Cells may have no sample.
-    Placed { name: &'static str, matrix: [i32; 4], noise: u32, holes: bool },
+    /// up to so many 32nds.
+    Placed { name: &'static str, matrix: [i32; 4], noise: u32, ground: Ground },
     /// One surface whose speeds follow from a matrix about the middle of the map, in 256ths of a cell.
     Driven { name: &'static str, matrix: [i32; 4] },
     /// A near block slides over the background, whose colours are mixed with its own along it.
@@ -37,7 +53,11 @@ pub enum Scene {
     /// Patches of each class, one depth.
     Patches,
     /// A far background that nothing moves.
-    Ground,
+    Background,
+    /// The same just behind the other scenes.
+    CloseBackground,
+    /// A near block that grows over the background.
+    Swell,
     /// A step of depth and one of speed where depths are equal.
     Steps,
 }
@@ -68,7 +88,9 @@ impl Scene {
             Self::Diagonal { falls: false } => "rising",
             Self::Limits => "limits",
             Self::Patches => "patches",
-            Self::Ground => "ground",
+            Self::Background => "background",
+            Self::CloseBackground => "close-background",
+            Self::Swell => "swell",
             Self::Steps => "steps",
         }
     }
@@ -106,16 +128,24 @@ impl Scene {
         let plain = Sample { class: Class::Galpixel, depth: 0x6000, place: [0; 2], speed: [0; 2], colour };
         match self {
             Self::Drawn(_) => plain,
-            Self::Placed { matrix, noise: most, holes, .. } => {
+            Self::Placed { matrix, noise: most, ground, .. } => {
                 let placed = times(matrix);
                 let place = [0, 1].map(|i| placed[i] - PARTS * from[i] + noise(most));
-                let class = if holes && random.below(12) == 0 { Class::Empty } else { Class::Galpixel };
-                Sample { class, place, ..plain }
+                let hole = ground == Ground::Holes && noise(6) == 0;
+                let depth = match ground {
+                    Ground::Level | Ground::Holes => plain.depth,
+                    Ground::Rough => plain.depth + ROUGH[noise(4).unsigned_abs() as usize],
+                    Ground::Farthest => 0xffff,
+                };
+                Sample { class: if hole { Class::Empty } else { Class::Galpixel }, depth, place, ..plain }
             }
             Self::Driven { matrix, .. } => Sample { speed: times(matrix), depth: 0x3000, ..plain },
             Self::Slide => {
+                // Two halves, the lower one wider, so that there are corners to all sides.
                 let near = |x: i32, y: i32| {
-                    (size[0] / 3..size[0] * 2 / 3).contains(&x) && (size[1] / 4..size[1] * 3 / 4).contains(&y)
+                    let (from, to) = if y < size[1] / 2 { (4, 6) } else { (2, 5) };
+                    let columns = size[0] * from / 8..size[0] * to / 8;
+                    columns.contains(&x) && (size[1] / 5..size[1] * 4 / 5).contains(&y)
                 };
                 let behind = [180 + 2 * noise(2), 60 + x, 20];
                 if near(x, y) {
@@ -155,7 +185,18 @@ impl Scene {
                     [((x / 3 + 2 * (y / 2)) % 5) as usize];
                 Sample { class, place: [noise(8), noise(8)], speed: [noise(8), noise(8)], ..plain }
             }
-            Self::Ground => Sample { depth: 0xe000, place: [noise(15), noise(15)], ..plain },
+            Self::Background => Sample { depth: 0xe000, place: [noise(15), noise(15)], ..plain },
+            Self::CloseBackground => {
+                let depth = plain.depth + 0x200 + ROUGH[noise(4).unsigned_abs() as usize];
+                Sample { depth, place: [noise(15), noise(15)], ..plain }
+            }
+            Self::Swell => {
+                let near = from[0].abs() <= 4 && from[1].abs() <= 3;
+                match near {
+                    true => Sample { depth: 0x3000, speed: [44 * from[0] + 20, 38 * from[1]], ..plain },
+                    false => Sample { depth: 0x9000, ..plain },
+                }
+            }
             Self::Steps => {
                 let depth = [0x4000, 0x4000, 0x9000][(x / 4 % 3) as usize];
                 let speed = [[0, 0], [140, -140]][(y / 3 % 2) as usize];

@@ -10,7 +10,7 @@ use crate::case::{Case, Content, Counts, GridSize, Setting};
 use crate::choice::grid;
 use crate::maps::{Picture, Random};
 use crate::run::{GridMemory, Model, RunError, planes};
-use crate::scenes::Scene;
+use crate::scenes::{Ground, Scene};
 use crate::sub_cell;
 
 /// Layers of samples, some frames of them, and what the last one shows.
@@ -211,7 +211,11 @@ const SHAPES: [GridSize; 9] = [
 const WIDE: [GridSize; 3] = [SHAPES[0], SHAPES[2], SHAPES[1]];
 
 const fn placed(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
-    Scene::Placed { name, matrix, noise, holes: false }
+    Scene::Placed { name, matrix, noise, ground: Ground::Level }
+}
+
+const fn rough(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
+    Scene::Placed { name, matrix, noise, ground: Ground::Rough }
 }
 
 /// Scenes of the base over all layouts, by the number of layers.
@@ -227,33 +231,39 @@ const SCENES: [(Scene, usize); 14] = [
     (Scene::Fence { upright: true }, 2),
     (placed("cracks", [43, 0, 0, 40], 2), 2),
     (Scene::Patches, 2),
-    (Scene::Drawn(Picture::Random), 3),
+    (rough("torn-rough", [42, 0, 4, 40], 6), 3),
     (placed("turned", [50, -44, 40, 52], 5), 1),
     (Scene::Fence { upright: false }, 1),
 ];
 
-/// Quads of every form, and displacements at their limits, over few layouts.
-const SPECIAL: [(Scene, usize); 20] = [
+/// Quads of every form, cracks, rims, and displacements at their limits, over few layouts.
+const SPECIAL: [(Scene, usize); 26] = [
     (placed("at-limit", [44, 0, 0, 44], 0), 2),
     (placed("beyond-across", [45, 0, 0, 32], 0), 1),
     (placed("beyond-down", [32, 0, 0, 45], 0), 2),
     (placed("skewed", [34, 45, 0, 34], 0), 1),
+    (Scene::Slide, 1),
+    (Scene::Slide, 2),
     (placed("four-wide", [128, 0, 0, 64], 0), 1),
+    (Scene::Slide, 1),
+    (placed("skewed-back", [34, 0, -45, 34], 0), 1),
     (placed("wider", [129, 0, 0, 50], 9), 2),
     (placed("higher", [50, 0, 0, 133], 9), 1),
+    (Scene::Swell, 1),
     (placed("folded", [-60, 0, 0, 60], 0), 1),
-    (placed("half-turn", [-60, 0, 0, -60], 3), 1),
     (placed("edge-on", [60, 60, 20, 21], 0), 1),
     (placed("flat", [64, 0, 0, 1], 0), 1),
     (placed("thin", [46, 0, 0, 1], 1), 1),
-    (Scene::Placed { name: "torn", matrix: [40, 0, 0, 40], noise: 50, holes: true }, 2),
-    (Scene::Placed { name: "holes", matrix: [36, 10, -10, 36], noise: 6, holes: true }, 2),
+    (Scene::Placed { name: "torn", matrix: [40, 0, 0, 40], noise: 50, ground: Ground::Holes }, 2),
+    (Scene::Placed { name: "farthest", matrix: [46, 0, 0, 46], noise: 6, ground: Ground::Farthest }, 1),
     (placed("across", [42, 0, 0, 32], 0), 2),
+    (rough("rough", [43, 0, 0, 43], 3), 2),
+    (rough("rough-crumpled", [40, 8, -8, 40], 20), 2),
     (placed("down", [32, 0, 0, 42], 0), 2),
-    (Scene::Diagonal { falls: true }, 1),
-    (Scene::Diagonal { falls: false }, 2),
     (Scene::Limits, 2),
+    (Scene::Diagonal { falls: true }, 2),
     (Scene::Drawn(Picture::Empty), 1),
+    (Scene::Diagonal { falls: false }, 2),
 ];
 
 /// Returns all cases, over the layouts of the others and three more.
@@ -298,11 +308,15 @@ fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) 
         },
         map_size,
         frame: [0, u32::MAX - 1, 5][turn % 3],
-        frames: if special { turn as u32 % 2 } else { [3, 4, 2, 0, 3][turn % 5] },
+        frames: match scene {
+            Scene::Slide | Scene::Swell => 3,
+            _ if special => turn as u32 % 2,
+            _ => [3, 4, 2, 0, 3][turn % 5],
+        },
         sub_cell: turn % 7 != 3,
     };
-    // Behind the base: the ground, the same once more with all depths equal, or anything.
-    let behind = [Scene::Ground, scene, Scene::Ground, Scene::Drawn(Picture::Random)];
+    // Behind the base: a background, the same once more at the same depths, or anything.
+    let behind = [Scene::Background, scene, Scene::CloseBackground, Scene::Drawn(Picture::Random)];
     let scenes: Vec<Scene> =
         (0..layers).map(|layer| if layer == 0 { scene } else { behind[(turn + layer) % 4] }).collect();
     let GridSize { width, height, .. } = map_size;
