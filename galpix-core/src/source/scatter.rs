@@ -12,8 +12,7 @@ use crate::map::galpixel::Class;
 /// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them. `first` is the number of
 /// the layer's first sample.
 ///
-/// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last
-/// bit.
+/// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last bit.
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
