@@ -149,15 +149,18 @@ impl Links<'_> {
     pub(crate) fn quads_inside(self, cell: u32, count: u32) -> bool {
         const RIGHT: u32 = 0x3333_3333;
         const LOWER: u32 = 0x1111_1111;
-        // The quad beyond the upper or the left border is no cell.
-        let (above, below) = (cell.wrapping_sub(self.width), cell.wrapping_add(self.width));
+        // The quad before the first sample lies outside of the grid.
+        if (cell / WORD) as usize >= self.words.len() {
+            return false;
+        }
+        let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
         let (mut missing, mut done) = (0, 0);
         while done <= count {
             let part = (count + 1 - done).min(WORD);
             let cells = u32::MAX >> ((WORD - part) << 2);
             // All but the column after the last quad must be linked with the next one.
             let inner = if done + part > count { cells >> 4 } else { cells };
-            let (own, next) = (self.eight(cell.wrapping_add(done)), self.eight(below.wrapping_add(done)));
+            let (own, next) = (self.eight(cell + done), self.eight(below + done));
             missing |= !own & (cells & !RIGHT | inner & RIGHT) | !next & inner & RIGHT;
             // In a pair with the row above the first one is nearer, or in one with the row beyond the second one.
             let before = self.eight(above.wrapping_add(done)) >> 2;
