@@ -67,6 +67,15 @@ impl<'p, F: Format> Source<'p, F> {
         self.displacements
     }
 
+    /// Returns the links of a sample: two bits for the pair with its right neighbour, and above them two for the pair
+    /// with the lower one. Both bits of a pair are set if the two are linked; the lower one alone if the first of them,
+    /// which is left or above, ends in front of the other; the upper one alone if the second does. 0 outside of the
+    /// map.
+    #[must_use]
+    pub fn link(&self, cell: u32) -> u32 {
+        self.links().of(cell)
+    }
+
     pub(crate) const fn links(&self) -> Links<'_> {
         Links { words: self.links, width: self.map.grid().width() }
     }

@@ -85,7 +85,7 @@ pub(crate) struct Links<'l> {
 impl Links<'_> {
     /// Returns the four bits of a cell: two for the pair with its right neighbour, two for that with the lower one.
     #[inline(always)]
-    fn of(self, cell: u32) -> u32 {
+    pub(crate) fn of(self, cell: u32) -> u32 {
         self.words.get((cell / WORD) as usize).map_or(0, |word| word >> ((cell % WORD) << 2) & 0b1111)
     }
 

@@ -166,6 +166,13 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
         let (_, first, layer) = layer_of(self.layers, entry.sample()).filter(|_| entry.is_some())?;
         Some((layer, entry.sample() - first))
     }
+
+    /// Returns the key and the word of the entry that a cell of the map shows: (depth | kind), 15 bits and 1, and
+    /// (number of the sample | residual in x | residual in y), 22, 5 and 5 bits. `None` if it shows no sample.
+    #[must_use]
+    pub fn entry(&self, cell: u32) -> Option<(u16, u32)> {
+        self.visibility.at(cell).parts()
+    }
 }
 
 /// Finds out what every cell shows, after a step if a rounding and a frame counter are given.

@@ -97,6 +97,11 @@ impl Entry {
         [(self.word << (UNUSED - RESIDUAL_BITS)) as i32 >> UNUSED, (self.word << UNUSED) as i32 >> UNUSED]
     }
 
+    /// Returns key and word; `None` if there is no sample.
+    pub(crate) const fn parts(self) -> Option<(u16, u32)> {
+        if self.is_some() { Some((self.key, self.word)) } else { None }
+    }
+
     /// Returns the same sample as seen from a cell whose residual is another one.
     #[inline(always)]
     pub(crate) fn seen_from(self, residual: [i32; 2]) -> Self {

@@ -19,7 +19,19 @@ fn vectors_are_written_whole_and_again_the_same() {
     assert_ne!(one["cases"], other["cases"]);
     let kinds: BTreeSet<&str> =
         one["cases"].as_array().expect("cases").iter().filter_map(|case| case["kind"].as_str()).collect();
-    let known = ["step", "resolve", "edge", "fill", "frame", "inpaint", "layers", "objects", "disocclusion", "subcell"];
+    let known = [
+        "step",
+        "resolve",
+        "edge",
+        "fill",
+        "frame",
+        "inpaint",
+        "layers",
+        "objects",
+        "disocclusion",
+        "subcell",
+        "source",
+    ];
     assert_eq!(kinds, BTreeSet::from(known));
     for case in one["cases"].as_array().expect("cases") {
         for file in case["files"].as_array().expect("files") {

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::disocclusion::Disocclusion;
 use crate::layered::Layers;
 use crate::objects::Objects;
+use crate::source::StationarySources;
 use crate::sub_cell::SubCell;
 
 /// Everything that was written, with the hash of every file.
@@ -26,7 +27,7 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame, inpaint, layers, objects, disocclusion or subcell.
+    /// step, resolve, edge, fill, frame, inpaint, layers, objects, disocclusion, subcell or source.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
@@ -79,6 +80,8 @@ pub enum Content {
     Disocclusion(Disocclusion),
     /// What a display shows of a map.
     SubCell(SubCell),
+    /// Samples that stay where they are, and what a display shows of them.
+    Source(StationarySources),
 }
 
 impl Content {
@@ -96,6 +99,7 @@ impl Content {
             Self::Objects(_) => "objects",
             Self::Disocclusion(_) => "disocclusion",
             Self::SubCell(_) => "subcell",
+            Self::Source(_) => "source",
         }
     }
 }

@@ -8,7 +8,7 @@ use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding,
 use crate::case::{Case, Content, GridSize};
 use crate::maps::{Picture, Random};
 use crate::run::{self, Model, Plan, RunError};
-use crate::{disocclusion, inpaint, layers, objects, sub_cell};
+use crate::{disocclusion, inpaint, layers, objects, source, sub_cell};
 
 /// Frames of a frame case.
 const FRAMES: u32 = 5;
@@ -63,7 +63,7 @@ const BRIGHT565: Layout = Layout { colour: Colour::RGB565, luminosity: true, tag
 
 /// Layouts and budgets: between them every field, every colour format, packing with and without fields that straddle
 /// words.
-fn models() -> Result<Vec<Model>, RunError> {
+pub fn models() -> Result<Vec<Model>, RunError> {
     let demand = |extent, recog, prop| Demand { extent, recog, prop };
     Ok(vec![
         Model::new("paper", Layout::FULL, Bits::derive(demand(1024, 8, 16))?)?,
@@ -129,6 +129,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     cases.extend(objects::cases(seed)?);
     cases.extend(disocclusion::cases(seed, &models)?);
     cases.extend(sub_cell::cases(seed, &models)?);
+    cases.extend(source::cases(seed, &models)?);
     Ok(cases)
 }
 

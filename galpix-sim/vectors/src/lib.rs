@@ -3,9 +3,9 @@
 //!
 //! ```text
 //! which cases there are        what is in them   the core      what is written down   JSON, hex, hashes
-//! choice, inpaint, layers,  ─▶ maps           ─▶ run,       ─▶ case                ─▶ write
+//! choice, inpaint, layers,  ─▶ maps, scenes   ─▶ run,       ─▶ case                ─▶ write
 //! objects, disocclusion,                         layered
-//! sub_cell
+//! sub_cell, source
 //! ```
 //!
 //! [`arrivals`] has the rules of propagation and resolution once more, slow and short, to compare the core's passes
@@ -25,6 +25,8 @@ mod layers;
 mod maps;
 mod objects;
 mod run;
+mod scenes;
+mod source;
 mod sub_cell;
 mod write;
 

@@ -39,10 +39,10 @@ const PICTURES: [Picture; 5] =
     [Picture::Surfaces, Picture::Random, Picture::Surfaces, Picture::Extreme, Picture::Surfaces];
 
 /// No depth: one surface.
-const LEVEL: Layout = Layout { colour: Colour::RGB888, velocity: true, acceleration: true, ..Layout::STILL };
+pub const LEVEL: Layout = Layout { colour: Colour::RGB888, velocity: true, acceleration: true, ..Layout::STILL };
 
 /// Offsets of more bits than scan-out weighs by, along a row just one more, before the widest depth.
-fn finest() -> Result<Bits, RunError> {
+pub fn finest() -> Result<Bits, RunError> {
     let bits = Bits::derive_without_acceleration(Demand { extent: 64, recog: 8, prop: 8 })?;
     Ok(bits.with_xy(component(9, [4, 8], [0, 0]).checked()?, component(13, [4, 12], [0, 0]).checked()?))
 }

@@ -98,6 +98,7 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
             ("mask", map.mask.clone()),
         ]),
         Content::SubCell(scan_out) => named(vec![("front", scan_out.front.clone()), ("shown", scan_out.shown.clone())]),
+        Content::Source(sources) => sources.arrays(),
         Content::Frame(frames) => {
             let first = ("front".to_owned(), frames.front.clone());
             let after = (1..).zip(&frames.frames).map(|(n, frame)| (format!("map_{n}"), frame.map.clone()));

@@ -1,0 +1,331 @@
+//! Cases of stationary sources: which there are, what they say, and the core run over their inputs.
+
+use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
+use galpix_core::stages::threshold_for_depth;
+use galpix_core::{Bits, Demand, Dynamic, FillMode, Galpixmap, Grid, Layout, Rounding, Settings, SetupError, Tally};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::case::{Case, Content, Counts, GridSize, Setting};
+use crate::choice::grid;
+use crate::maps::{Picture, Random};
+use crate::run::{GridMemory, Model, RunError, planes};
+use crate::scenes::{Ground, Scene};
+use crate::sub_cell;
+
+/// Layers of samples, some frames of them, and what the last one shows.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct StationarySources {
+    /// Widths, fields, places, size.
+    #[serde(flatten)]
+    pub setting: Setting,
+    /// The edge threshold, in units of the depth's last bit.
+    pub threshold: u32,
+    /// The rounding's name.
+    pub rounding: String,
+    /// The frame counter of the first step.
+    pub frame: u32,
+    /// Steps; with 0 the samples are shown as they are given.
+    pub frames: u32,
+    /// None, hold or extend.
+    pub fill_mode: String,
+    /// Whether colours are resampled.
+    pub sub_cell: bool,
+    /// The layers, the base first.
+    pub layers: Vec<SourceLayer>,
+    /// What each cell of the map shows after cracks are closed: depth and kind, 65535 without an entry.
+    pub keys: Vec<u32>,
+    /// Number and residual of the sample, 4294967295 without an entry.
+    pub entries: Vec<u32>,
+    /// A colour word for each cell of the map, before silhouettes.
+    pub gathered: Vec<u32>,
+    /// The colour words after silhouettes; empty without sub-cell scan-out.
+    pub shown: Vec<u32>,
+    /// Of the last step.
+    pub counts: Counts,
+}
+
+/// One layer, before the first step and after the last one.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SourceLayer {
+    /// Its galpixels.
+    pub galpixels: Vec<u32>,
+    /// The word of the displacement of each cell.
+    pub displacements: Vec<u32>,
+    /// The links of each cell, two bits for the pair with its right neighbour and two above them for the lower one: 3
+    /// linked, 1 the first one ends, 2 the second one does.
+    pub links: Vec<u32>,
+    /// Its galpixels after the last step.
+    pub galpixels_after: Vec<u32>,
+    /// Its displacements after the last step.
+    pub displacements_after: Vec<u32>,
+}
+
+impl StationarySources {
+    /// Returns the arrays of a case by their names.
+    pub fn arrays(&self) -> Vec<(String, Vec<u32>)> {
+        let mut arrays = Vec::new();
+        for (k, layer) in self.layers.iter().enumerate() {
+            let SourceLayer { galpixels, displacements, links, galpixels_after, displacements_after } = layer;
+            arrays.extend([
+                (format!("galpixels_{k}"), galpixels.clone()),
+                (format!("displacements_{k}"), displacements.clone()),
+                (format!("links_{k}"), links.clone()),
+                (format!("galpixels_after_{k}"), galpixels_after.clone()),
+                (format!("displacements_after_{k}"), displacements_after.clone()),
+            ]);
+        }
+        for (name, words) in [("keys", &self.keys), ("entries", &self.entries), ("gathered", &self.gathered)] {
+            arrays.push((name.to_owned(), words.clone()));
+        }
+        if self.sub_cell {
+            arrays.push(("shown".to_owned(), self.shown.clone()));
+        }
+        arrays
+    }
+}
+
+/// How a case is made.
+struct Plan {
+    settings: Settings,
+    map_size: GridSize,
+    frame: u32,
+    frames: u32,
+    sub_cell: bool,
+}
+
+/// Memory of a layer.
+struct LayerMemory {
+    map: Vec<u32>,
+    displacements: Vec<u32>,
+    links: Vec<u32>,
+}
+
+impl LayerMemory {
+    /// Makes a layer that is linked where its samples are stored, and then lies where it is given.
+    fn layer<'m>(
+        &'m mut self,
+        grid: Grid<'m>,
+        format: Dynamic,
+        edge_threshold: u32,
+    ) -> Result<Source<'m, Dynamic>, SetupError> {
+        let displacements = self.displacements.clone();
+        let map = Galpixmap::over(grid, format, &mut self.map)?;
+        let mut source = Source::new(map, &mut self.displacements, &mut self.links)?;
+        source.begin(edge_threshold);
+        source.displacements_mut().copy_from_slice(&displacements);
+        Ok(source)
+    }
+}
+
+impl Model {
+    /// Makes frames of layers of stationary sources, and shows the last one.
+    fn sources(&self, plan: &Plan, scenes: &[Scene], random: &mut Random) -> Result<Content, RunError> {
+        let mut starts = GridMemory::new(plan.map_size);
+        let grid = starts.grid()?;
+        let cells = grid.cells() as usize;
+        let at_first: Vec<[Vec<u32>; 2]> =
+            scenes.iter().map(|scene| scene.layer(self.record(), &plan.map_size, random)).collect();
+        let links = vec![0; link_words(&grid)];
+        let mut memories: Vec<LayerMemory> = at_first
+            .iter()
+            .cloned()
+            .map(|[map, displacements]| LayerMemory { map, displacements, links: links.clone() })
+            .collect();
+        let mut layers = Vec::new();
+        for memory in &mut memories {
+            layers.push(memory.layer(grid, self.format, plan.settings.edge_threshold)?);
+        }
+        let (mut keys, mut words, mut line) = (vec![0; cells], vec![0; cells], vec![0; Visibility::line_words(&grid)]);
+        let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line)?;
+        let mut sources = Sources::new(&mut layers, visibility)?;
+        sources.set_frame(plan.frame);
+        let counts = match plan.frames {
+            0 => sources.show(&plan.settings),
+            frames => (0..frames).fold(Tally::default(), |_, _| sources.step(&plan.settings)),
+        };
+        let [gathered, shown] = plan.colours(&sources, &grid);
+        let entries = || (0..grid.cells()).map(|cell| sources.entry(cell).unwrap_or((u16::MAX, u32::MAX)));
+        let layers = sources.layers().iter().zip(at_first).map(|(source, [galpixels, displacements])| SourceLayer {
+            galpixels,
+            displacements,
+            links: (0..grid.cells()).map(|cell| source.link(cell)).collect(),
+            galpixels_after: planes(source.map()),
+            displacements_after: (0..grid.cells())
+                .map(|cell| galpix_core::layers::displacement_word(source.displacement(cell)))
+                .collect(),
+        });
+        Ok(Content::Source(StationarySources {
+            setting: self.setting(plan.map_size),
+            threshold: plan.settings.edge_threshold,
+            rounding: plan.settings.rounding.name().to_owned(),
+            frame: plan.frame,
+            frames: plan.frames,
+            fill_mode: plan.settings.fill_mode.name().to_owned(),
+            sub_cell: plan.sub_cell,
+            layers: layers.collect(),
+            keys: entries().map(|(key, _)| key.into()).collect(),
+            entries: entries().map(|(_, word)| word).collect(),
+            gathered,
+            shown,
+            counts: counts.into(),
+        }))
+    }
+}
+
+impl Plan {
+    /// Returns the colours of all cells before and after silhouettes.
+    fn colours(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>) -> [Vec<u32>; 2] {
+        let Settings { fill_mode, edge_threshold, .. } = self.settings;
+        let gather = Gather { fill_mode, sub_cell: self.sub_cell, edge_threshold };
+        let width = grid.width() as usize;
+        let mut gathered = vec![0; grid.cells() as usize];
+        for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
+            sources.gather(y, gather, row);
+        }
+        let mut shown = vec![0; if self.sub_cell { gathered.len() } else { 0 }];
+        let row = |y: Option<usize>| y.and_then(|y| gathered.chunks(width).nth(y)).unwrap_or_default();
+        for (y, colours) in shown.chunks_mut(width).enumerate() {
+            let around = [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))];
+            sources.finish(y as u32, edge_threshold, around, colours);
+        }
+        [gathered, shown]
+    }
+}
+
+/// Mostly with room for surfaces; rows longer than any run that an engine may take at once, lines along either side,
+/// margins, and a single cell.
+const SHAPES: [GridSize; 9] = [
+    grid(24, 14, [0; 4]),
+    grid(70, 4, [0; 4]),
+    grid(17, 11, [2, 1, 3, 0]),
+    grid(12, 9, [0; 4]),
+    grid(1, 23, [0; 4]),
+    grid(40, 7, [1, 0, 0, 1]),
+    grid(21, 1, [0; 4]),
+    grid(15, 15, [0; 4]),
+    grid(1, 1, [0; 4]),
+];
+
+/// The first shapes, for scenes that need room.
+const WIDE: [GridSize; 3] = [SHAPES[0], SHAPES[2], SHAPES[1]];
+
+const fn placed(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
+    Scene::Placed { name, matrix, noise, ground: Ground::Level }
+}
+
+const fn rough(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
+    Scene::Placed { name, matrix, noise, ground: Ground::Rough }
+}
+
+/// Scenes of the base over all layouts, by the number of layers.
+const SCENES: [(Scene, usize); 14] = [
+    (Scene::Slide, 1),
+    (Scene::Driven { name: "expand", matrix: [40, 0, 0, 40] }, 2),
+    (Scene::Drawn(Picture::Random), 2),
+    (placed("crumpled", [40, 0, 0, 40], 14), 1),
+    (Scene::Steps, 1),
+    (Scene::Driven { name: "rotate", matrix: [10, -50, 50, 10] }, 2),
+    (Scene::Slant, 1),
+    (Scene::Drawn(Picture::Extreme), 1),
+    (Scene::Fence { upright: true }, 2),
+    (placed("cracks", [43, 0, 0, 40], 2), 2),
+    (Scene::Patches, 2),
+    (rough("torn-rough", [42, 0, 4, 40], 6), 3),
+    (placed("turned", [50, -44, 40, 52], 5), 1),
+    (Scene::Fence { upright: false }, 1),
+];
+
+/// Quads of every form, cracks, rims, and displacements at their limits, over few layouts.
+const SPECIAL: [(Scene, usize); 26] = [
+    (placed("at-limit", [44, 0, 0, 44], 0), 2),
+    (placed("beyond-across", [45, 0, 0, 32], 0), 1),
+    (placed("beyond-down", [32, 0, 0, 45], 0), 2),
+    (placed("skewed", [34, 45, 0, 34], 0), 1),
+    (Scene::Slide, 1),
+    (Scene::Slide, 2),
+    (placed("four-wide", [128, 0, 0, 64], 0), 1),
+    (Scene::Slide, 1),
+    (placed("skewed-back", [34, 0, -45, 34], 0), 1),
+    (placed("wider", [129, 0, 0, 50], 9), 2),
+    (placed("higher", [50, 0, 0, 133], 9), 1),
+    (Scene::Swell, 1),
+    (placed("folded", [-60, 0, 0, 60], 0), 1),
+    (placed("edge-on", [60, 60, 20, 21], 0), 1),
+    (placed("flat", [64, 0, 0, 1], 0), 1),
+    (placed("thin", [46, 0, 0, 1], 1), 1),
+    (Scene::Placed { name: "torn", matrix: [40, 0, 0, 40], noise: 50, ground: Ground::Holes }, 2),
+    (Scene::Placed { name: "farthest", matrix: [46, 0, 0, 46], noise: 6, ground: Ground::Farthest }, 1),
+    (placed("across", [42, 0, 0, 32], 0), 2),
+    (rough("rough", [43, 0, 0, 43], 3), 2),
+    (rough("rough-crumpled", [40, 8, -8, 40], 20), 2),
+    (placed("down", [32, 0, 0, 42], 0), 2),
+    (Scene::Limits, 2),
+    (Scene::Diagonal { falls: true }, 2),
+    (Scene::Drawn(Picture::Empty), 1),
+    (Scene::Diagonal { falls: false }, 2),
+];
+
+/// Returns all cases, over the layouts of the others and three more.
+pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
+    let demand = Demand { extent: 64, recog: 8, prop: 8 };
+    let more = [
+        Model::new("finest", Layout { depth_bits: 28, ..Layout::VELOCITY565 }, sub_cell::finest()?)?,
+        Model::new("level", sub_cell::LEVEL, Bits::derive(demand)?)?,
+        Model::new("plain565", Layout::VELOCITY565, Bits::derive_without_acceleration(demand)?)?,
+    ];
+    let models: Vec<&Model> = models.iter().chain(&more).collect();
+    let mut cases = Vec::new();
+    for (place, model) in models.iter().enumerate() {
+        for index in 0..4 {
+            let turn = place * 4 + index;
+            let (scene, layers) = SCENES[turn * 3 % SCENES.len()];
+            cases.push(case(seed, model, (scene, layers), turn)?);
+        }
+    }
+    let special = models.iter().filter(|model| ["velocity565", "gray8", "straddle", "finest"].contains(&model.name));
+    for (turn, ((scene, layers), model)) in SPECIAL.into_iter().zip(special.cycle()).enumerate() {
+        cases.push(case(seed, model, (scene, layers), 1000 + turn)?);
+    }
+    Ok(cases)
+}
+
+fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) -> Result<Case, RunError> {
+    let special = turn >= 1000;
+    let map_size = if special { WIDE[turn / 2 % WIDE.len()] } else { SHAPES[(turn + turn / 9) % SHAPES.len()] };
+    let default = threshold_for_depth(model.depth_bits());
+    let plan = Plan {
+        settings: Settings {
+            rounding: Rounding::ALL[turn % Rounding::ALL.len()],
+            fill_mode: [FillMode::Extend, FillMode::Hold, FillMode::Extend, FillMode::None][turn / 2 % 4],
+            reach: 1,
+            edge_threshold: match turn % 11 {
+                4 => 0,
+                9 => u32::MAX,
+                7 => default * 3,
+                _ => default,
+            },
+        },
+        map_size,
+        frame: [0, u32::MAX - 1, 5][turn % 3],
+        frames: match scene {
+            Scene::Slide | Scene::Swell => 3,
+            _ if special => turn as u32 % 2,
+            _ => [3, 4, 2, 0, 3][turn % 5],
+        },
+        sub_cell: turn % 7 != 3,
+    };
+    // Behind the base: a background, the same once more at the same depths, or anything.
+    let behind = [Scene::Background, scene, Scene::CloseBackground, Scene::Drawn(Picture::Random)];
+    let scenes: Vec<Scene> =
+        (0..layers).map(|layer| if layer == 0 { scene } else { behind[(turn + layer) % 4] }).collect();
+    let GridSize { width, height, .. } = map_size;
+    let name = format!("source-{}-{}-{layers}-{width}x{height}", model.name, scene.name());
+    let about =
+        format!("{} steps of {layers} layers of samples, the first of which shows {}", plan.frames, scene.name());
+    let content = model.sources(&plan, &scenes, &mut Random::new(seed, &name))?;
+    Ok(Case { name, about, content })
+}
+
+#[cfg(test)]
+mod tests;
