@@ -477,7 +477,7 @@ def check_source(case, where, differences):
     rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
     fill_mode = get_choice(case, "fill_mode", ("none", "hold", "extend"), where)
     sub_cell, n = get(case, "sub_cell", bool, where), get_int(case, "frame", where)
-    steps = get_int(case, "steps", where)
+    steps = get_int(case, "frames", where)
     arrays, maps = {}, []
     entries = get(case, "layers", list, where)
     for number, entry in enumerate(entries):
@@ -488,8 +488,7 @@ def check_source(case, where, differences):
     sources = model.make_sources(engine, get_int(case, "threshold", where), maps)
     saturated = 0
     for _ in range(steps):
-        sources, fields = model.step_sources(sources, rounding, n)
-        saturated += fields
+        sources, saturated = model.step_sources(sources, rounding, n)      # the counts are those of the last step
         n = (n + 1) % WORD
     shown = model.show_sources(sources, fill_mode, sub_cell)
     numbers = 0

@@ -2171,8 +2171,8 @@ def place_of(sources, layer, cell):
 
 
 def reciprocal(area):
-    """Section 21, stretched quads: r."""
-    k = area.bit_length() - 1
+    """Section 21, stretched quads: r. `k` is the length of `area` in bits: its highest set bit is bit k - 1."""
+    k = area.bit_length()
     if k >= 7:
         reached["21 reciprocal, k above 7" if k > 7 else "21 reciprocal, k is 7"] += 1
         return (1 << 20) // (area >> (k - 7)) >> (k - 7)
