@@ -2136,10 +2136,10 @@ def part_of_bits(engine, galpixel, number, b):
     return (o + (1 << (f - b - 1))) >> (f - b)
 
 
-def entry_depth(depth):
+def entry_depth(depth, kind):
     """Section 21, entries: at most 2^15 - 2."""
     if depth > FARTHEST:
-        reached["21 depth of an entry is at most 2^15 - 2"] += 1
+        reached[f"21 depth of a {'quad' if kind == QUAD else 'point'} is at most 2^15 - 2"] += 1
         return FARTHEST
     return depth
 
@@ -2158,8 +2158,8 @@ def point_of(sources, layer, cell):
         return None, None
     sample = galpixels[cell]
     residual = (-part_of_bits(engine, sample, number, 4) for number in range(2))
-    entry = Entry(entry_depth(depth_of(sources, sample) + (sources.e >> 1)), POINT, layer * len(galpixels) + cell,
-                  *residual)
+    depth = entry_depth(depth_of(sources, sample) + (sources.e >> 1), POINT)
+    entry = Entry(depth, POINT, layer * len(galpixels) + cell, *residual)
     return row * columns(engine.grid) + column, entry
 
 
@@ -2176,6 +2176,8 @@ def reciprocal(area):
     if k >= 7:
         reached["21 reciprocal, k above 7" if k > 7 else "21 reciprocal, k is 7"] += 1
         return (1 << 20) // (area >> (k - 7)) >> (k - 7)
+    if area == 32:
+        reached["21 reciprocal, least area"] += 1
     reached["21 reciprocal, k below 7"] += 1
     return (1 << 20) // (area << (7 - k)) << (7 - k)
 
@@ -2246,7 +2248,7 @@ def quad_entries(sources, layer, cell, others):
             sample = sources.layers[layer].galpixels[cell]
             number = layer * columns(grid) * rows(grid) + cell
             entries.append((j * columns(grid) + i,
-                            Entry(entry_depth(depth_of(sources, sample)), QUAD, number, *residual)))
+                            Entry(entry_depth(depth_of(sources, sample), QUAD), QUAD, number, *residual)))
     reached["21 quad gives entries" if entries else "21 quad gives no entry"] += 1
     return entries
 
@@ -2545,6 +2547,9 @@ def reach_towards(sources, entry, side):
         reached["21 reach: does not end"] += 1
         return 0
     number = residual[0 if side in (LEFT, RIGHT) else 1]
+    if cell != entry.number % (columns(grid) * rows(grid)) and number:
+        along = number != (entry.u if side in (LEFT, RIGHT) else entry.v)
+        reached[f"21 reach of another sample{'' if along else ', moved across'}"] += 1
     return number if side in (RIGHT, BELOW) else -number
 
 
@@ -2764,11 +2769,13 @@ def rule_names():
     names += [f"21 displacement in {name} clamped at the {end}" for name in "xy" for end in ("lowest", "highest")]
     names += ["21 part without an offset field"]
     names += [f"21 part with {b} bits, {how}" for b in (4, 5) for how in ("f < b", "f = b", "f > b", "f > b, half")]
-    names += ["21 depth of an entry is at most 2^15 - 2", "21 entries by depth", "21 entries by kind",
+    names += ["21 depth of a quad is at most 2^15 - 2", "21 depth of a point is at most 2^15 - 2",
+              "21 entries by depth", "21 entries by kind",
               "21 entries by number", "21 entries by number, of several layers"]
     names += [f"21 point off the grid, {side}" for side in SIDES]
     names += ["21 quad not stretched", "21 quad not stretched, just so", "21 quad tries 4 columns or rows",
-              "21 reciprocal, k above 7", "21 reciprocal, k is 7", "21 reciprocal, k below 7",
+              "21 reciprocal, k above 7", "21 reciprocal, k is 7", "21 reciprocal, least area",
+              "21 reciprocal, k below 7",
               "21 cell of a quad is off the grid", "21 cell not in a quad", "21 cell not in a quad only by u",
               "21 cell not in a quad only by v", "21 residual in a quad at least 0", "21 residual in a quad at most 15",
               "21 quad gives entries", "21 quad gives no entry"]
@@ -2803,6 +2810,7 @@ def rule_names():
               "21 fill extend: right is farther"]
     names += [f"21 fill hold, class {klass}: stored" for klass in range(4)]
     names += [f"21 reach: from the sample {side}" for side in SIDES]
+    names += ["21 reach of another sample", "21 reach of another sample, moved across"]
     names += ["21 reach: beyond 8, not linked", "21 reach: does not end"]
     names += [f"21 silhouette, {side} {how}{shown}" for side in SIDES for how in ("is behind", "is in front")
               for shown in ("", ", but not shown")]
