@@ -470,9 +470,53 @@ def check_subcell(case, where, differences):
     return Checked(0, len(shown)), arrays
 
 
+def check_source(case, where, differences):
+    engine = read_engine(case, where)
+    record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    fill_mode = get_choice(case, "fill_mode", ("none", "hold", "extend"), where)
+    sub_cell, n = get(case, "sub_cell", bool, where), get_int(case, "frame", where)
+    steps = get_int(case, "frames", where)
+    arrays, maps = {}, []
+    entries = get(case, "layers", list, where)
+    for number, entry in enumerate(entries):
+        here = f"{where}, layer {number}"
+        words = arrays[f"galpixels_{number}"] = get_words(entry, "galpixels", here, record.words * cells)
+        places = arrays[f"displacements_{number}"] = get_words(entry, "displacements", here, cells)
+        maps.append((model.unpack_map(words, record, cells), [tuple(model.displacement_of(word)) for word in places]))
+    sources = model.make_sources(engine, get_int(case, "threshold", where), maps)
+    saturated = 0
+    for _ in range(steps):
+        sources, saturated = model.step_sources(sources, rounding, n)      # the counts are those of the last step
+        n = (n + 1) % WORD
+    shown = model.show_sources(sources, fill_mode, sub_cell)
+    numbers = 0
+    for number, (entry, layer) in enumerate(zip(entries, sources.layers)):
+        here = f"{where}, layer {number}"
+        links = arrays[f"links_{number}"] = get_words(entry, "links", here, cells)
+        compare_numbers("links", links, [model.link_number(of) for of in layer.links], here, differences)
+        words = arrays[f"galpixels_after_{number}"] = get_words(entry, "galpixels_after", here, record.words * cells)
+        compare_map("map after the steps", words, layer.galpixels, engine, here, differences)
+        places = arrays[f"displacements_after_{number}"] = get_words(entry, "displacements_after", here, cells)
+        compare_numbers("displacement after the steps", places,
+                        [model.displacement_word(place) for place in layer.displacements], here, differences)
+        numbers += len(words) + 2 * cells
+    got = {"keys": [model.entry_key(entry) for entry in shown.entries],
+           "entries": [model.entry_word(entry) for entry in shown.entries], "gathered": shown.gathered}
+    if sub_cell:
+        got["shown"] = shown.colours
+    for name, words in got.items():
+        arrays[name] = get_words(case, name, where, cells)
+        compare_numbers(name, arrays[name], words, where, differences)
+        numbers += cells
+    compare_counts(case, {**shown.counts, "saturated": saturated}, where, differences)
+    return Checked(steps, numbers + len(model.COUNTS)), arrays
+
+
 CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
           "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects,
-          "disocclusion": check_disocclusion, "subcell": check_subcell}
+          "disocclusion": check_disocclusion, "subcell": check_subcell, "source": check_source}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
     "resolve": "records, maps, winners, counts",
@@ -484,6 +528,7 @@ COMPARED = {
     "objects": "records, maps, counts",
     "disocclusion": "records, extents as marked and as spread, masks, counts",
     "subcell": "records, colours shown",
+    "source": "records, links, galpixels and displacements after steps, entries, colours gathered and shown, counts",
 }
 
 

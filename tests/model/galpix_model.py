@@ -1840,11 +1840,11 @@ def parts_alike(engine, one, other, number):
 
 
 def round_256ths(total, what):
-    """Section 20: the nearest whole number to a number of 256ths, halves upwards."""
+    """Sections 20 and 21: the nearest whole number to a number of 256ths, halves upwards."""
     rest = low_bits(total, 8)
     if rest:
         kind = {127: "just below half", 128: "half"}.get(rest, "rounds up" if rest > 128 else "rounds down")
-        reached[f"20 {what}, {kind}"] += 1
+        reached[f"{what}, {kind}"] += 1
     return (total + 128) >> 8
 
 
@@ -1860,7 +1860,7 @@ def bilinear(engine, galpixels, column, row, limit):
     q = abs(oy) if join(own, below, limit) and parts_alike(engine, below, own, 1) else 0
     d = 0
     if join(own, corner, limit):
-        d = round_256ths(p * q, "bilinear corner")
+        d = round_256ths(p * q, "20 bilinear corner")
     if p and q:
         reached["20 bilinear, both axes" if join(own, corner, limit) else "20 bilinear, corner not joined"] += 1
     elif p or q:
@@ -1874,7 +1874,7 @@ def bilinear(engine, galpixels, column, row, limit):
     channels = []
     for c, a, b, e in zip(*(split_channels(galpixel["colour"], engine.layout.colour)
                             for galpixel in (own, beside, below, corner))):
-        channels.append(round_256ths(c * (256 - p - q + d) + a * (p - d) + b * (q - d) + e * d, "bilinear"))
+        channels.append(round_256ths(c * (256 - p - q + d) + a * (p - d) + b * (q - d) + e * d, "20 bilinear"))
     return channels
 
 
@@ -1914,7 +1914,7 @@ def silhouettes(engine, galpixels, column, row, limit, channels):
         reached[f"20 silhouette, {SIDES[side]} {how}"] += 1
         mixed += 1
         colours = split_channels(neighbour["colour"], engine.layout.colour)
-        channels = [round_256ths(v * (256 - t) + n * t, "silhouette") for v, n in zip(channels, colours)]
+        channels = [round_256ths(v * (256 - t) + n * t, "20 silhouette") for v, n in zip(channels, colours)]
     if mixed:
         reached["20 silhouette alone" if mixed == 1 else "20 several silhouettes"] += 1
     return channels
@@ -1941,6 +1941,686 @@ def scan_out(engine, galpixels, limit):
                 reached["20 beside the margin"] += 1
             shown.append(join_channels(channels, engine.layout.colour))
     return shown
+
+
+# --- 21. Stationary sources ------------------------------------------------------------------------------------------
+
+DEPTH_15 = 15
+NO_ENTRY_DEPTH = (1 << DEPTH_15) - 1
+FARTHEST = NO_ENTRY_DEPTH - 1                       # the depth of an entry is at most this
+QUAD, POINT = 0, 1
+NO_KEY, NO_ENTRY = (1 << 16) - 1, (1 << 32) - 1     # what vectors show of a cell without an entry
+STRETCHED = 44                                      # counts 32ths of a cell
+TRIED = 4                                           # columns or rows that a quad may try
+# what is said of a pair: bit 0 that the first ends in front, bit 1 that the second does, both that it is linked
+NEITHER, FIRST_ENDS, SECOND_ENDS, LINKED = range(4)
+WAYS = ((1, 0), (0, 1), (1, 1), (1, -1))            # t of the cracks, in the order in which they are tried
+
+SourceLayer = namedtuple("SourceLayer", "galpixels displacements links")
+Sources = namedtuple("Sources", "engine limit e layers")    # limit in units of the depth field, e is E
+Entry = namedtuple("Entry", "depth kind number u v")
+Links = namedtuple("Links", "right below")                  # of each cell, what is said of its two pairs
+
+
+def to_15_bits(engine, value):
+    """Section 21: a depth, or the threshold, for depths of 15 bits."""
+    d = engine.widths["depth"]
+    return value >> (d - DEPTH_15) if d > DEPTH_15 else value << (DEPTH_15 - d)
+
+
+def depth_of(sources, sample):
+    """Section 21: the depth of a sample."""
+    return to_15_bits(sources.engine, sample["depth"])
+
+
+def is_sample(galpixel):
+    """Section 21, samples: whether a cell's galpixel is one."""
+    if galpixel["class"] != GALPIXEL:
+        reached[f"21 class {galpixel['class']} is no sample"] += 1
+        return False
+    return True
+
+
+def does_step(four, limit, field):
+    """Section 21, links: whether a value steps between the second and the third of four; None where is no sample."""
+    p, a, b, n = four
+    differences = {"of the pair": b - a}
+    if p is not None:
+        differences["before"] = (b - a) - (a - p)
+    if n is not None:
+        differences["after"] = (n - b) - (b - a)
+    small = [name for name, difference in differences.items() if abs(difference) <= limit]
+    if small:
+        if len(small) == 1:
+            just = abs(differences[small[0]]) == limit
+            reached[f"21 no step only by the difference {small[0]}{', just so' if just else ''}"] += 1
+        return False
+    for name in ("before", "after"):
+        if name not in differences:
+            reached[f"21 step without a sample {name}"] += 1
+    return True
+
+
+def link(sources, galpixels, cell, direction):
+    """Section 21, links: what is said of a cell and the one to the right or below; None where that is no pair."""
+    engine, side = sources.engine, SIDES[direction]
+    grid = engine.grid
+
+    def sample_at(steps):
+        column, row = cell % columns(grid), cell // columns(grid)
+        column, row = column + steps * TOWARDS[direction][0], row + steps * TOWARDS[direction][1]
+        if not (0 <= column < columns(grid) and 0 <= row < rows(grid)):
+            return None
+        galpixel = galpixels[row * columns(grid) + column]
+        return galpixel if is_sample(galpixel) else None
+
+    four = [sample_at(steps) for steps in (-1, 0, 1, 2)]
+    one, other = four[1:3]
+    if one is None or other is None:
+        return None
+    limits = {"depth": sources.limit,
+              **{f"velocity_{name}": (1 << engine.budget.components[number].velocity_frac) >> 2
+                 for number, name in enumerate("xy")}}
+    steps = [field for field, limit in limits.items()
+             if does_step([galpixel and galpixel[field] for galpixel in four], limit, field)]
+    if not steps:
+        reached[f"21 linked with {side}"] += 1
+        return LINKED
+    reached[f"21 only the {steps[0]} steps, {side}" if len(steps) == 1 else "21 several fields step"] += 1
+    if one["depth"] == other["depth"]:
+        reached["21 not linked, neither ends"] += 1
+        return NEITHER
+    first = one["depth"] < other["depth"]
+    reached[f"21 not linked with {side}, the {'first' if first else 'second'} ends"] += 1
+    return FIRST_ENDS if first else SECOND_ENDS
+
+
+def make_links(sources, galpixels):
+    """Section 21, links: of all cells of a layer, when it is updated."""
+    return [Links(*(link(sources, galpixels, cell, direction) or NEITHER for direction in (RIGHT, BELOW)))
+            for cell in range(len(galpixels))]
+
+
+def link_number(links):
+    """The number by which vectors show the links of a cell."""
+    return links.right | links.below << 2
+
+
+def make_sources(engine, limit, maps):
+    """Section 21: the layers as an update leaves them, of a list of (galpixels, displacements)."""
+    if len(maps) * columns(engine.grid) * rows(engine.grid) > 1 << 22:
+        raise Refused("there are more than 2^22 numbers of samples")
+    d = engine.widths["depth"]
+    reached["21 no depth field" if d == 0 else "21 depth below 15 bits" if d < DEPTH_15 else
+            "21 depth of 15 bits" if d == DEPTH_15 else "21 depth above 15 bits"] += 1
+    reached["21 one layer" if len(maps) == 1 else "21 several layers"] += 1
+    if limit > (1 << 31) - 1:
+        reached["21 threshold above 2^31 - 1"] += 1
+        limit = (1 << 31) - 1
+    e = to_15_bits(engine, limit)
+    if e > 1 << DEPTH_15:
+        reached["21 E is 2^15"] += 1
+        e = 1 << DEPTH_15
+    sources = Sources(engine, limit, e, [])
+    sources.layers.extend(SourceLayer(galpixels, displacements, make_links(sources, galpixels))
+                          for galpixels, displacements in maps)
+    return sources
+
+
+def pair(sources, layer, cell, side):
+    """Section 21, links: (cell at that side or None, what is said of the two; here the first is `cell` itself)."""
+    other = neighbours(sources.engine.grid, cell)[side]
+    if other is None:
+        return None, NEITHER
+    if side in (RIGHT, BELOW):
+        of = sources.layers[layer].links[cell]
+        return other, of.right if side == RIGHT else of.below
+    of = sources.layers[layer].links[other]
+    said = of.right if side == LEFT else of.below
+    return other, {FIRST_ENDS: SECOND_ENDS, SECOND_ENDS: FIRST_ENDS}.get(said, said)
+
+
+def linked_with(sources, layer, cell, side):
+    """Section 21, links: the cell at that side if it is linked with `cell`, else None."""
+    other, said = pair(sources, layer, cell, side)
+    return other if said == LINKED else None
+
+
+def quad_of(sources, layer, cell):
+    """Section 21, links: the cells (A, B, D) of the quad of a cell, or None."""
+    right, below = linked_with(sources, layer, cell, RIGHT), linked_with(sources, layer, cell, BELOW)
+    if right is None or below is None:
+        return None
+    fourth = right + columns(sources.engine.grid)
+    if linked_with(sources, layer, right, BELOW) is None or linked_with(sources, layer, below, RIGHT) is None:
+        reached["21 no quad only for the fourth sample"] += 1
+        return None
+    return right, below, fourth
+
+
+def step_sources(sources, rounding, n):
+    """Section 21, step: (sources after it, fields that saturated)."""
+    thresholds = thresholds_of(sources.engine, rounding, n)
+    low, high = lowest(16), highest(16)
+    layers, saturated = [], 0
+    for galpixels, displacements, links in sources.layers:
+        galpixels, displacements = list(galpixels), list(displacements)
+        for cell, galpixel in enumerate(galpixels):
+            if not is_sample(galpixel):
+                continue
+            galpixels[cell], right, down, fields = step_galpixel(sources.engine, galpixel, thresholds)
+            saturated += fields
+            wanted = displacements[cell][0] + right, displacements[cell][1] + down
+            place = tuple(clamp(number, low, high) for number in wanted)
+            for name, number, got in zip("xy", wanted, place):
+                if number != got:
+                    reached[f"21 displacement in {name} clamped at the {'lowest' if number < got else 'highest'}"] += 1
+                    saturated += 1
+            displacements[cell] = place
+        layers.append(SourceLayer(galpixels, displacements, links))
+    return sources._replace(layers=layers), saturated
+
+
+def part_of_bits(engine, galpixel, number, b):
+    """Section 21, step: the part of x (number 0) or y (1) with `b` bits."""
+    name = f"offset_{COMPONENTS[number]}"
+    if not engine.widths[name]:
+        reached["21 part without an offset field"] += 1
+        return 0
+    o, f = galpixel[name], engine.position_frac[number]
+    if f <= b:
+        reached[f"21 part with {b} bits, {'f < b' if f < b else 'f = b'}"] += 1
+        return o << (b - f)
+    half = low_bits(o, f - b) == 1 << (f - b - 1)
+    reached[f"21 part with {b} bits, f > b{', half' if half else ''}"] += 1
+    return (o + (1 << (f - b - 1))) >> (f - b)
+
+
+def entry_depth(depth, kind):
+    """Section 21, entries: at most 2^15 - 2."""
+    if depth > FARTHEST:
+        reached[f"21 depth of a {'quad' if kind == QUAD else 'point'} is at most 2^15 - 2"] += 1
+        return FARTHEST
+    return depth
+
+
+def point_of(sources, layer, cell):
+    """Section 21, points: (cell on the grid or None, its entry)."""
+    engine = sources.engine
+    galpixels, displacements, _ = sources.layers[layer]
+    row, column = divmod(cell, columns(engine.grid))
+    column, row = column + displacements[cell][0], row + displacements[cell][1]
+    outside = [side for side, off in zip(SIDES, (column < 0, column >= columns(engine.grid), row < 0,
+                                                 row >= rows(engine.grid))) if off]
+    if outside:
+        for side in outside:
+            reached[f"21 point off the grid, {side}"] += 1
+        return None, None
+    sample = galpixels[cell]
+    residual = (-part_of_bits(engine, sample, number, 4) for number in range(2))
+    depth = entry_depth(depth_of(sources, sample) + (sources.e >> 1), POINT)
+    entry = Entry(depth, POINT, layer * len(galpixels) + cell, *residual)
+    return row * columns(engine.grid) + column, entry
+
+
+def place_of(sources, layer, cell):
+    """Section 21, stretched quads: P, in 32ths of a cell."""
+    galpixels, displacements, _ = sources.layers[layer]
+    return tuple(displacements[cell][number] * 32 + part_of_bits(sources.engine, galpixels[cell], number, 5)
+                 for number in range(2))
+
+
+def reciprocal(area):
+    """Section 21, stretched quads: r. `k` is the length of `area` in bits: its highest set bit is bit k - 1."""
+    k = area.bit_length()
+    if k >= 7:
+        reached["21 reciprocal, k above 7" if k > 7 else "21 reciprocal, k is 7"] += 1
+        return (1 << 20) // (area >> (k - 7)) >> (k - 7)
+    if area == 32:
+        reached["21 reciprocal, least area"] += 1
+    reached["21 reciprocal, k below 7"] += 1
+    return (1 << 20) // (area << (7 - k)) << (7 - k)
+
+
+def within(number, area):
+    """Section 21, stretched quads: whether u or v of a cell is within the quad and a quarter more."""
+    low, high = -(area >> 2), area + (area >> 2)
+    if number in (low, high):
+        reached[f"21 just within a quad, {'low' if number == low else 'high'}"] += 1
+    elif number in (low - 1, high + 1):
+        reached[f"21 just not within a quad, {'low' if number < low else 'high'}"] += 1
+    return low <= number <= high
+
+
+def quad_entries(sources, layer, cell, others):
+    """Section 21, stretched quads: list of (cell of the grid, entry) that a quad gives."""
+    grid = sources.engine.grid
+    row, column = divmod(cell, columns(grid))
+    own = place_of(sources, layer, cell)
+    sides = ((32, 0), (0, 32), (32, 32))
+    a, b, d = (tuple(other - mine + side for other, mine, side in zip(place_of(sources, layer, of), own, by))
+               for of, by in zip(others, sides))
+    long = [name for name, number in zip(("a_x", "a_y", "b_x", "b_y"), a + b) if abs(number) > STRETCHED]
+    if not long:
+        reached["21 quad not stretched"] += 1
+        if any(abs(number) == STRETCHED for number in a + b):
+            reached["21 quad not stretched, just so"] += 1
+        return []
+    if len(long) == 1:
+        negative = dict(zip(("a_x", "a_y", "b_x", "b_y"), a + b))[long[0]] < 0
+        reached[f"21 quad stretched only by {long[0]}{', negative' if negative else ''}"] += 1
+    s = (32 * column + own[0], 32 * row + own[1])
+    ranges = []
+    for number in range(2):
+        corners_at = [0, a[number], b[number], d[number]]
+        # the first is rounded up, the last down
+        ranges.append(range(-(-(s[number] + min(corners_at)) // 32), (s[number] + max(corners_at) - 1) // 32 + 1))
+    area = a[0] * b[1] - a[1] * b[0]
+    none = [name for name, off in (("columns", len(ranges[0]) > TRIED), ("rows", len(ranges[1]) > TRIED),
+                                   ("area", area < 32)) if off]
+    if none:
+        if len(none) == 1:
+            reached[f"21 quad tries none only for its {none[0]}"] += 1
+        return []
+    if TRIED in (len(ranges[0]), len(ranges[1])):
+        reached["21 quad tries 4 columns or rows"] += 1
+    r = reciprocal(area)
+    entries = []
+    for j in ranges[1]:
+        for i in ranges[0]:
+            if not (0 <= i < columns(grid) and 0 <= j < rows(grid)):
+                reached["21 cell of a quad is off the grid"] += 1
+                continue
+            e = (32 * i - s[0], 32 * j - s[1])
+            uv = (b[1] * e[0] - b[0] * e[1], a[0] * e[1] - a[1] * e[0])
+            inside = [within(number, area) for number in uv]
+            if not all(inside):
+                reached["21 cell not in a quad" if not any(inside) else
+                        f"21 cell not in a quad only by {'v' if inside[0] else 'u'}"] += 1
+                continue
+            residual = []
+            for number in uv:
+                number = (number * r + (1 << 15)) >> 16
+                if not 0 <= number <= 15:
+                    reached["21 residual in a quad at least 0" if number < 0 else
+                            "21 residual in a quad at most 15"] += 1
+                residual.append(clamp(number, 0, 15))
+            sample = sources.layers[layer].galpixels[cell]
+            number = layer * columns(grid) * rows(grid) + cell
+            entries.append((j * columns(grid) + i,
+                            Entry(entry_depth(depth_of(sources, sample), QUAD), QUAD, number, *residual)))
+    reached["21 quad gives entries" if entries else "21 quad gives no entry"] += 1
+    return entries
+
+
+def all_entries(sources):
+    """Section 21, entries: the one that each cell shows, or None; and the numbers of samples and of lost ones."""
+    grid = sources.engine.grid
+    cells = columns(grid) * rows(grid)
+    best = [None] * cells
+    moved = lost = 0
+
+    def enter(cell, entry):
+        other = best[cell]
+        if other is not None:
+            level = next(name for name in ("depth", "kind", "number")
+                         if getattr(entry, name) != getattr(other, name))
+            several = level == "number" and entry.number // cells != other.number // cells
+            reached[f"21 entries by {level}{', of several layers' if several else ''}"] += 1
+        if other is None or entry[:3] < other[:3]:
+            best[cell] = entry
+
+    for layer, (galpixels, _, _) in enumerate(sources.layers):
+        for cell, galpixel in enumerate(galpixels):
+            if not is_sample(galpixel):
+                continue
+            moved += 1
+            at, entry = point_of(sources, layer, cell)
+            if at is None:
+                lost += 1
+            else:
+                enter(at, entry)
+            others = quad_of(sources, layer, cell)
+            if others is not None:
+                for at, entry in quad_entries(sources, layer, cell, others):
+                    enter(at, entry)
+    return best, moved, lost
+
+
+def shown_depth(entry):
+    """Section 21, entries: the depth of a cell."""
+    return NO_ENTRY_DEPTH if entry is None else entry.depth
+
+
+def samples_joined(sources, one, other):
+    """Section 21, cracks: whether the samples of two numbers are joined."""
+    grid = sources.engine.grid
+    cells = columns(grid) * rows(grid)
+    (layer, cell), (other_layer, target) = divmod(one, cells), divmod(other, cells)
+    if layer != other_layer:
+        reached["21 not joined: layers"] += 1
+        return False
+    right = target % columns(grid) - cell % columns(grid)
+    down = target // columns(grid) - cell // columns(grid)
+    if abs(right) > 2 or abs(down) > 2:
+        reached["21 not joined: columns" if abs(down) <= 2 else "21 not joined: rows" if abs(right) <= 2 else
+                "21 not joined: columns and rows"] += 1
+        return False
+    way = [LEFT if right < 0 else RIGHT] * abs(right) + [ABOVE if down < 0 else BELOW] * abs(down)
+    for side in way:
+        cell = linked_with(sources, layer, cell, side)
+        if cell is None:
+            reached["21 not joined: links"] += 1
+            return False
+    reached["21 joined: the same" if not way else "21 joined: one side" if len(way) == 1 else
+            "21 joined: round a corner" if right and down else "21 joined: two on a line"] += 1
+    return True
+
+
+def closed_by(sources, entries, cell, t):
+    """Section 21, cracks: (distance, entry before it is clamped) by the neighbours at -t and t, or None."""
+    grid = sources.engine.grid
+    row, column = divmod(cell, columns(grid))
+    ends = [(column - t[0], row - t[1]), (column + t[0], row + t[1])]
+    if not all(0 <= x < columns(grid) and 0 <= y < rows(grid) for x, y in ends):
+        reached["21 crack: off the grid"] += 1
+        return None
+    f, g = (entries[y * columns(grid) + x] for x, y in ends)
+    if f is None or g is None:
+        reached["21 crack: a neighbour without an entry"] += 1
+        return None
+    own = entries[cell]
+    if own is not None:
+        behind = own.depth - sources.e
+        if not (f.depth < behind and g.depth < behind):
+            if max(f.depth, g.depth) == behind:
+                reached["21 crack: just not behind"] += 1
+            elif min(f.depth, g.depth) < behind:
+                reached["21 crack: behind one alone"] += 1
+            return None
+    apart = abs(f.depth - g.depth)
+    if apart > sources.e:
+        reached["21 crack: neighbours apart"] += 1
+        return None
+    if apart and apart == sources.e:
+        reached["21 crack: neighbours just not apart"] += 1
+    if not samples_joined(sources, f.number, g.number):
+        return None
+    candidates = []
+    for entry, by in ((f, 16), (g, -16)):
+        u, v = entry.u + by * t[0], entry.v + by * t[1]
+        candidates.append((abs(u) + abs(v), entry._replace(u=u, v=v)))
+    (near, _), (far, _) = candidates
+    name = "(%d, %d)" % t
+    reached[f"21 crack {name}: {'equal, F' if near == far else 'F' if near < far else 'G'}"] += 1
+    return candidates[0] if near <= far else candidates[1]
+
+
+def close_cracks(sources, entries):
+    """Section 21, cracks: the entries after they are closed."""
+    result = list(entries)
+    for cell in range(len(entries)):
+        horizontal, vertical = (closed_by(sources, entries, cell, t) for t in WAYS[:2])
+        if horizontal and vertical:
+            equal = horizontal[0] == vertical[0]
+            taken = horizontal if horizontal[0] <= vertical[0] else vertical
+            reached["21 crack both ways, equal" if equal else "21 crack both ways, (1, 0)"
+                    if taken is horizontal else "21 crack both ways, (0, 1)"] += 1
+        else:
+            taken = horizontal or vertical or closed_by(sources, entries, cell, WAYS[2]) \
+                or closed_by(sources, entries, cell, WAYS[3])
+        if not taken:
+            continue
+        reached["21 crack in an empty cell" if entries[cell] is None else "21 crack over an entry"] += 1
+        entry = taken[1]
+        u, v = clamp(entry.u, -16, 15), clamp(entry.v, -16, 15)
+        if (u, v) != (entry.u, entry.v):
+            reached["21 crack: residual clamped"] += 1
+        result[cell] = entry._replace(u=u, v=v)
+    return result
+
+
+def own_colour(sources, entries, cell):
+    """Section 21, colour of an entry: the channels s, of the stored colour or in place of it."""
+    grid, entry = sources.engine.grid, entries[cell]
+    layer, at = divmod(entry.number, columns(grid) * rows(grid))
+    galpixels = sources.layers[layer].galpixels
+
+    def channels_at(place):
+        return split_channels(galpixels[place]["colour"], sources.engine.layout.colour)
+
+    s = channels_at(at)
+    best, result = 0, s
+    for side in range(len(SIDES)):
+        neighbour, said = pair(sources, layer, at, side)
+        if said != SECOND_ENDS:
+            continue
+        nearer, depth = depth_of(sources, galpixels[neighbour]) + sources.e, depth_of(sources, galpixels[at])
+        if not nearer < depth:
+            reached["21 mixed: just not nearer now" if nearer == depth else "21 mixed: not nearer now"] += 1
+            continue
+        beside = neighbours(grid, cell)[side]
+        if beside is None:
+            reached["21 mixed: beside the border"] += 1
+        elif shown_depth(entries[beside]) + sources.e < entry.depth:
+            reached["21 mixed: nearer beside it"] += 1
+            continue
+        else:
+            reached["21 mixed: none beside it" if entries[beside] is None else "21 mixed: not nearer beside it"] += 1
+        inner = linked_with(sources, layer, at, OPPOSITE[side])
+        if inner is None:
+            reached["21 mixed: nothing opposite"] += 1
+            continue
+        total, fits = 0, True
+        for mine, n, i in zip(s, channels_at(neighbour), channels_at(inner)):
+            m, whole = abs(mine - i), abs(n - i)
+            why = None
+            if 8 * m < whole:
+                why = "too little"
+            elif m > whole:
+                why = "too much"
+            elif (mine - i) * (n - i) < 0:
+                why = "the other side"
+            elif m and 8 * m == whole:
+                reached["21 mixed: an eighth, just so"] += 1
+            elif m and m == whole:
+                reached["21 mixed: all, just so"] += 1
+            if why:
+                reached[f"21 mixed: {why}"] += 1
+                fits = False
+            total += m
+        if not fits:
+            continue
+        if total == 0:
+            reached["21 mixed: sum 0"] += 1
+        elif total > best:
+            reached["21 mixed: a later side with more" if best else f"21 mixed with {SIDES[side]}"] += 1
+            best, result = total, channels_at(inner)
+        else:
+            reached["21 mixed: equal, the first side" if total == best else "21 mixed: a later side with less"] += 1
+    return result
+
+
+def colour_of_entry(sources, entries, cell, sub_cell):
+    """Section 21, colour of an entry: the channels."""
+    engine, entry = sources.engine, entries[cell]
+    layer, at = divmod(entry.number, columns(engine.grid) * rows(engine.grid))
+    galpixels = sources.layers[layer].galpixels
+
+    def channels_at(place):
+        return split_channels(galpixels[place]["colour"], engine.layout.colour)
+
+    if not sub_cell:
+        return channels_at(at)
+    s = own_colour(sources, entries, cell)
+    side_x, side_y = LEFT if entry.u < 0 else RIGHT, ABOVE if entry.v < 0 else BELOW
+    a, b = linked_with(sources, layer, at, side_x), linked_with(sources, layer, at, side_y)
+    p, q = (abs(number) if other is not None else 0 for number, other in ((entry.u, a), (entry.v, b)))
+    for number, other in ((entry.u, a), (entry.v, b)):
+        if number and other is None:
+            reached["21 colour: not linked"] += 1
+    d = at                                              # stands for any: its weight is 0 unless it is set below
+    if p and q:
+        # the fourth is beside both: in the row of B, in the column of A
+        by_a, by_b = linked_with(sources, layer, a, side_y), linked_with(sources, layer, b, side_x)
+        if by_a is None and by_b is None:
+            reached[f"21 colour: no fourth, {'equal' if p == q else 'x alone' if p > q else 'y alone'}"] += 1
+            if p < q:
+                p = 0
+            else:
+                q = 0
+        else:
+            reached["21 colour: fourth by both" if by_a is not None and by_b is not None else
+                    "21 colour: fourth by A alone" if by_b is None else "21 colour: fourth by B alone"] += 1
+            d = by_b if by_a is None else by_a
+    if p:
+        reached[f"21 colour from {SIDES[side_x]}"] += 1
+    if q:
+        reached[f"21 colour from {SIDES[side_y]}"] += 1
+    if 16 in (p, q):
+        reached["21 colour: all of a neighbour"] += 1
+    if s != channels_at(at):
+        reached["21 mixed, resampled" if p or q else "21 mixed, not resampled"] += 1
+    result = []
+    for mine, right, below, fourth in zip(s, *(channels_at(at if place is None else place) for place in (a, b, d))):
+        total = mine * (16 - p) * (16 - q) + right * p * (16 - q) + below * (16 - p) * q + fourth * p * q
+        result.append(round_256ths(total, "21 colour"))
+    return result
+
+
+def fill_sources(sources, entries, colours, fill_mode):
+    """Section 21, fill: the channels of all cells; `colours` are those of cells with an entry, None of others."""
+    engine = sources.engine
+    grid, width = engine.grid, columns(engine.grid)
+    base = sources.layers[0].galpixels
+    result = list(colours)
+    for cell, entry in enumerate(entries):
+        if entry is not None:
+            continue
+        stored = split_channels(base[cell]["colour"], engine.layout.colour)
+        klass = base[cell]["class"]
+        if fill_mode == "none":
+            reached["21 fill none"] += 1
+            result[cell] = [0] * len(stored)
+        elif klass == EMPTY or fill_mode != "extend":
+            reached[f"21 fill {fill_mode}, class {klass}: stored"] += 1
+            result[cell] = stored
+        else:
+            row = cell // width
+            # the ends of the run of cells without an entry, of whatever class
+            left = next((at for at in range(cell - 1, row * width - 1, -1) if entries[at] is not None), None)
+            right = next((at for at in range(cell + 1, (row + 1) * width) if entries[at] is not None), None)
+            run = range(row * width if left is None else left + 1, (row + 1) * width if right is None else right)
+            if any(base[at]["class"] == EMPTY for at in run):
+                reached["21 fill extend, class 3 in the run"] += 1
+            if left is None and right is None:
+                reached["21 fill extend: no entry in the row"] += 1
+                result[cell] = stored
+            elif left is None or right is None:
+                reached["21 fill extend: only right" if left is None else "21 fill extend: only left"] += 1
+                result[cell] = colours[right if left is None else left]
+            else:
+                depths = entries[left].depth, entries[right].depth
+                reached["21 fill extend: equal depths, left" if depths[0] == depths[1] else
+                        f"21 fill extend: {'left' if depths[0] > depths[1] else 'right'} is farther"] += 1
+                result[cell] = colours[left if depths[0] >= depths[1] else right]
+    return result
+
+
+def reach_towards(sources, entry, side):
+    """Section 21, silhouettes: the reach of an entry towards a side, in sixteenths of a cell."""
+    grid = sources.engine.grid
+    layer, cell = divmod(entry.number, columns(grid) * rows(grid))
+    residual = [entry.u, entry.v]
+    for number, (before, after) in enumerate(((LEFT, RIGHT), (ABOVE, BELOW))):
+        beyond = after if residual[number] > 8 else before if residual[number] < -8 else None
+        if beyond is None:
+            continue
+        other = linked_with(sources, layer, cell, beyond)
+        if other is None:
+            reached["21 reach: beyond 8, not linked"] += 1
+            continue
+        reached[f"21 reach: from the sample {SIDES[beyond]}"] += 1
+        cell = other
+        residual[number] += -16 if beyond == after else 16
+    if pair(sources, layer, cell, side)[1] != FIRST_ENDS:
+        reached["21 reach: does not end"] += 1
+        return 0
+    number = residual[0 if side in (LEFT, RIGHT) else 1]
+    if cell != entry.number % (columns(grid) * rows(grid)) and number:
+        along = number != (entry.u if side in (LEFT, RIGHT) else entry.v)
+        reached[f"21 reach of another sample{'' if along else ', moved across'}"] += 1
+    return number if side in (RIGHT, BELOW) else -number
+
+
+def source_silhouettes(sources, entries, gathered):
+    """Section 21, silhouettes: the channels of all cells; `gathered` are those before."""
+    grid, half = sources.engine.grid, sources.e >> 1
+    result = []
+    for cell, channels in enumerate(gathered):
+        mixed = 0
+        own = shown_depth(entries[cell])
+        for side, neighbour in enumerate(neighbours(grid, cell)):
+            if neighbour is None:
+                continue
+            other = shown_depth(entries[neighbour])
+            if own + half < other:
+                t, how = reach_towards(sources, entries[cell], side), "is behind"
+            elif other + half < own:
+                t, how = -reach_towards(sources, entries[neighbour], OPPOSITE[side]), "is in front"
+            else:
+                if own != other and half in (own - other, other - own):
+                    reached["21 silhouette: just not nearer"] += 1
+                continue
+            if t <= 0:
+                if t < 0:
+                    reached[f"21 silhouette, {SIDES[side]} {how}, but not shown"] += 1
+                continue
+            reached[f"21 silhouette, {SIDES[side]} {how}"] += 1
+            if entries[cell] is None or entries[neighbour] is None:
+                reached["21 silhouette beside a hole"] += 1
+            mixed += 1
+            channels = [round_256ths(c * (256 - 16 * t) + 16 * n * t, "21 silhouette")
+                        for c, n in zip(channels, gathered[neighbour])]
+        if mixed:
+            reached["21 silhouette alone" if mixed == 1 else "21 several silhouettes"] += 1
+        result.append(channels)
+    return result
+
+
+Shown = namedtuple("Shown", "entries gathered colours counts")
+
+
+def show_sources(sources, fill_mode, sub_cell):
+    """Section 21: what the cells of the map show; `colours` is None without sub-cell scan-out."""
+    first, moved, lost = all_entries(sources)
+    entries = close_cracks(sources, first)
+    holes = [cell for cell, entry in enumerate(first) if entry is None]
+    bullets = sum(entries[cell] is not None for cell in holes)
+    points = sum(entry is not None and entry.kind == POINT for entry in first)
+    counts = {"moved": moved, "lost": lost, "holes": len(holes), "bullets": bullets, "empty": len(holes) - bullets,
+              "collided": moved - lost - points}
+    colours = [None if entry is None else colour_of_entry(sources, entries, cell, sub_cell)
+               for cell, entry in enumerate(entries)]
+    gathered = fill_sources(sources, entries, colours, fill_mode)
+    reached["21 with sub-cell scan-out" if sub_cell else "21 without sub-cell scan-out"] += 1
+    words = [join_channels(channels, sources.engine.layout.colour) for channels in gathered]
+    if not sub_cell:
+        return Shown(entries, words, None, counts)
+    after = source_silhouettes(sources, entries, gathered)
+    return Shown(entries, words, [join_channels(channels, sources.engine.layout.colour) for channels in after], counts)
+
+
+def entry_key(entry):
+    """Section 21, entries: the key of 16 bits."""
+    return NO_KEY if entry is None else entry.depth << 1 | entry.kind
+
+
+def entry_word(entry):
+    """Section 21, entries: number, residual in x and in y, from the most significant bit."""
+    if entry is None:
+        return NO_ENTRY
+    return entry.number << 10 | low_bits(entry.u, 5) << 5 | low_bits(entry.v, 5)
 
 
 # --- The rules -------------------------------------------------------------------------------------------------------
@@ -2073,6 +2753,69 @@ def rule_names():
     names += ["20 depths", "20 no depth field", "20 threshold 0", "20 threshold above 0"]
     names += [f"20 colour {name}" for name in FORMATS]
     names += [f"20 shown, class {klass}" for klass in range(4)]
+    names += ["21 no depth field", "21 depth below 15 bits", "21 depth of 15 bits", "21 depth above 15 bits",
+              "21 one layer", "21 several layers", "21 threshold above 2^31 - 1", "21 E is 2^15",
+              "21 with sub-cell scan-out", "21 without sub-cell scan-out"]
+    names += [f"21 class {klass} is no sample" for klass in (JUST_UNOBSCURED, DEBRIS, EMPTY)]
+    names += [f"21 no step only by the difference {which}{just}" for which in ("of the pair", "before", "after")
+              for just in ("", ", just so")]
+    names += ["21 step without a sample before", "21 step without a sample after", "21 several fields step",
+              "21 not linked, neither ends"]
+    for side in ("right", "below"):
+        names.append(f"21 linked with {side}")
+        names += [f"21 only the {field} steps, {side}" for field in ("depth", "velocity_x", "velocity_y")]
+        names += [f"21 not linked with {side}, the {which} ends" for which in ("first", "second")]
+    names.append("21 no quad only for the fourth sample")
+    names += [f"21 displacement in {name} clamped at the {end}" for name in "xy" for end in ("lowest", "highest")]
+    names += ["21 part without an offset field"]
+    names += [f"21 part with {b} bits, {how}" for b in (4, 5) for how in ("f < b", "f = b", "f > b", "f > b, half")]
+    names += ["21 depth of a quad is at most 2^15 - 2", "21 depth of a point is at most 2^15 - 2",
+              "21 entries by depth", "21 entries by kind",
+              "21 entries by number", "21 entries by number, of several layers"]
+    names += [f"21 point off the grid, {side}" for side in SIDES]
+    names += ["21 quad not stretched", "21 quad not stretched, just so", "21 quad tries 4 columns or rows",
+              "21 reciprocal, k above 7", "21 reciprocal, k is 7", "21 reciprocal, least area",
+              "21 reciprocal, k below 7",
+              "21 cell of a quad is off the grid", "21 cell not in a quad", "21 cell not in a quad only by u",
+              "21 cell not in a quad only by v", "21 residual in a quad at least 0", "21 residual in a quad at most 15",
+              "21 quad gives entries", "21 quad gives no entry"]
+    names += [f"21 quad stretched only by {which}{negative}" for which in ("a_x", "a_y", "b_x", "b_y")
+              for negative in ("", ", negative")]
+    names += [f"21 quad tries none only for its {which}" for which in ("columns", "rows", "area")]
+    names += [f"21 just {within} a quad, {end}" for within in ("within", "not within") for end in ("low", "high")]
+    names += ["21 not joined: layers", "21 not joined: columns", "21 not joined: rows",
+              "21 not joined: columns and rows", "21 not joined: links", "21 joined: the same", "21 joined: one side",
+              "21 joined: round a corner", "21 joined: two on a line"]
+    names += [f"21 crack: {why}" for why in
+              ("off the grid", "a neighbour without an entry", "just not behind", "behind one alone",
+               "neighbours apart", "neighbours just not apart", "residual clamped")]
+    names += ["21 crack (%d, %d): %s" % (*t, which) for t in WAYS for which in ("F", "G", "equal, F")]
+    names += ["21 crack both ways, equal", "21 crack both ways, (1, 0)", "21 crack both ways, (0, 1)",
+              "21 crack in an empty cell", "21 crack over an entry"]
+    names += [f"21 mixed: {what}" for what in
+              ("just not nearer now", "not nearer now", "beside the border", "nearer beside it", "none beside it",
+               "not nearer beside it", "nothing opposite", "too little", "too much", "the other side",
+               "an eighth, just so", "all, just so", "sum 0", "a later side with more", "equal, the first side",
+               "a later side with less")]
+    names += [f"21 mixed with {side}" for side in SIDES]
+    names += ["21 mixed, resampled", "21 mixed, not resampled"]
+    names += [f"21 colour from {side}" for side in SIDES]
+    names += ["21 colour: not linked", "21 colour: no fourth, x alone", "21 colour: no fourth, y alone",
+              "21 colour: no fourth, equal", "21 colour: fourth by both", "21 colour: fourth by A alone",
+              "21 colour: fourth by B alone", "21 colour: all of a neighbour"]
+    names += [f"21 {what}, {how}" for what in ("colour", "silhouette") for how in ("half", "rounds up", "rounds down")]
+    names += ["21 fill none", "21 fill extend, class 3: stored", "21 fill extend, class 3 in the run",
+              "21 fill extend: no entry in the row", "21 fill extend: only left", "21 fill extend: only right",
+              "21 fill extend: equal depths, left", "21 fill extend: left is farther",
+              "21 fill extend: right is farther"]
+    names += [f"21 fill hold, class {klass}: stored" for klass in range(4)]
+    names += [f"21 reach: from the sample {side}" for side in SIDES]
+    names += ["21 reach of another sample", "21 reach of another sample, moved across"]
+    names += ["21 reach: beyond 8, not linked", "21 reach: does not end"]
+    names += [f"21 silhouette, {side} {how}{shown}" for side in SIDES for how in ("is behind", "is in front")
+              for shown in ("", ", but not shown")]
+    names += ["21 silhouette: just not nearer", "21 silhouette beside a hole", "21 silhouette alone",
+              "21 several silhouettes"]
     return names
 
 
