@@ -75,8 +75,8 @@ impl Frame<'_> {
         self.pixels(|cell| self.origins[cell] != NO_ORIGIN)
     }
 
-    /// For each pixel of the display, whether a sample of the update would be seen there if none was lost on the way: as
-    /// stationary sources, whatever the scheme.
+    /// For each pixel of the display, whether a sample of the update would be seen there if none was lost on the way:
+    /// as stationary sources, whatever the scheme.
     #[must_use]
     pub fn outline(&self) -> Vec<bool> {
         match &self.outline {

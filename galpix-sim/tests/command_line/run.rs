@@ -115,7 +115,8 @@ fn every_fill_mode_and_rounding_is_known_by_name() {
     }
 }
 
-/// Samples that stay wear nothing out: pictures come nearer to the truth, fewer cells are missing, what moves slowly slides.
+/// Samples that stay wear nothing out: pictures come nearer to the truth, fewer cells are missing, and what moves
+/// slowly slides.
 #[test]
 fn stationary_sources_come_nearer_to_the_truth_than_the_map() {
     let folder = folder();

@@ -1,9 +1,9 @@
 //! The core's passes as symbols of a static library, so that their machine code can be inspected.
 //!
 //! `proof_*` must reach no panic, no multiplication, no division and no float, but for those that inpaint, go over
-//! layers, resample rows, show stationary sources, submit objects or make disocclusion maps, which may multiply. `distorted_*` must reach no
-//! panic. `planted_*` each reach one of these on purpose, so that the inspection is seen to find it. All arguments are
-//! opaque to the optimiser: maps, scratch memory and settings come from outside.
+//! layers, resample rows, show stationary sources, submit objects or make disocclusion maps, which may multiply.
+//! `distorted_*` must reach no panic. `planted_*` each reach one of these on purpose, so that the inspection is seen to
+//! find it. All arguments are opaque to the optimiser: maps, scratch memory and settings come from outside.
 
 #![no_std]
 
