@@ -96,16 +96,19 @@ pub(crate) fn gather_cell<F: Format>(
         return Some(layer.map.colour(sample));
     }
     let width = layer.map.grid().width();
-    let record = layer.map.record();
-    let depth =
-        |sample: u32| visibility::depth(layer.map.unsigned(record.depth(), sample), record.depth().bits.into()) as i32;
+    let depth = |layer: &Source<'_, F>, sample: u32| {
+        let field = layer.map.record().depth();
+        visibility::depth(layer.map.unsigned(field, sample), field.bits.into()) as i32
+    };
+    let own = depth(layer, sample);
     let in_front = |nearer: u32, side: Side| {
         let [dx, _] = side.towards();
         // Beyond the border nothing is shown.
         let inside = x.wrapping_add_signed(dx) < width;
-        let neighbour = visibility.at(layer.links().beyond(start + x, side));
-        inside && neighbour.depth() + gather.threshold < entry.depth()
-            || depth(nearer) + gather.threshold >= depth(sample)
+        let beside = visibility.at(layer.links().beyond(start + x, side));
+        let shown = layer_of(layers, beside.sample()).filter(|_| inside && beside.is_some());
+        shown.is_some_and(|(layer, first, _)| depth(layer, beside.sample() - first) + gather.threshold < own)
+            || depth(layer, nearer) + gather.threshold >= own
     };
     Some(colour(layer, sample, entry.residual(), in_front))
 }

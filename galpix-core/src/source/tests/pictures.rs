@@ -401,3 +401,21 @@ fn compare_fills(sources: Shown<'_, '_, '_>, tally: &Tally) {
         }
     }
 }
+
+/// A sky at the farthest depth that there is, and a ridge just before it, whose colours a renderer has mixed at the
+/// border: what is mixed is not changed as long as the ridge is seen beside it.
+#[test]
+fn the_farthest_depth_is_one_like_others() {
+    for (ridge, sky) in [(0.98, 1.0), (0.96, 1.0), (0.98, 0.9999), (0.5, 0.52)] {
+        let far = |x: i32, _: i32| match x {
+            0..6 => gray(200, ridge, [0.0; 2]),
+            6 => gray(150, sky, [0.0; 2]),
+            _ => gray(100, sky, [0.0; 2]),
+        };
+        run((17, 5), &[&far], 3, |_, sources, _| {
+            for row in picture(sources, FillMode::Hold) {
+                assert_eq!(row[4..9], [200, 200, 150, 100, 100], "{ridge} {sky}");
+            }
+        });
+    }
+}
