@@ -2402,11 +2402,14 @@ def own_colour(sources, entries, cell):
         beside = neighbours(grid, cell)[side]
         if beside is None:
             reached["21 mixed: beside the border"] += 1
-        elif shown_depth(entries[beside]) + sources.e < entry.depth:
-            reached["21 mixed: nearer beside it"] += 1
-            continue
+        elif entries[beside] is None:
+            reached["21 mixed: none beside it"] += 1
         else:
-            reached["21 mixed: none beside it" if entries[beside] is None else "21 mixed: not nearer beside it"] += 1
+            above, sample = divmod(entries[beside].number, columns(grid) * rows(grid))
+            if depth_of(sources, sources.layers[above].galpixels[sample]) + sources.e < depth:
+                reached["21 mixed: nearer beside it"] += 1
+                continue
+            reached["21 mixed: not nearer beside it"] += 1
         inner = linked_with(sources, layer, at, OPPOSITE[side])
         if inner is None:
             reached["21 mixed: nothing opposite"] += 1
