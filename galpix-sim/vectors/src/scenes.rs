@@ -214,7 +214,7 @@ impl Scene {
                 }
                 // Eighths of the near colour, and a bit more or less.
                 let part = noise(4).abs() * 2;
-                let behind = [[208, 48, 64], [204, 52, 64]][usize::from(noise(1) > 0)];
+                let behind = [[208, 48, 64], [204, 44, 64]][usize::from(noise(1) > 0)];
                 let mixed = |from: i32, to: i32| (from * (8 - part) + to * part) / 8;
                 let colour = [mixed(behind[0], 16), mixed(behind[1], 240), mixed(behind[2], 128) + noise(1)];
                 Sample { speed: [-200, 0], colour: colour.map(|level| level as u8), ..plain }

@@ -210,6 +210,9 @@ const SHAPES: [GridSize; 9] = [
 /// The first shapes, for scenes that need room.
 const WIDE: [GridSize; 3] = [SHAPES[0], SHAPES[2], SHAPES[1]];
 
+/// Where what happens in the first and in the last column counts.
+const HIGH: GridSize = grid(9, 30, [0; 4]);
+
 const fn placed(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
     Scene::Placed { name, matrix, noise, ground: Ground::Level }
 }
@@ -251,7 +254,7 @@ const SPECIAL: [(Scene, usize); 34] = [
     (placed("higher", [50, 0, 0, 133], 9), 1),
     (Scene::Swell, 1),
     (placed("folded", [-60, 0, 0, 60], 0), 1),
-    (placed("edge-on", [60, 1, 28, 1], 0), 1),
+    (placed("edge-on", [60, 2, 10, 1], 0), 1),
     (placed("flat", [48, 2, 16, 1], 0), 1),
     (placed("thin", [46, 0, 0, 1], 1), 1),
     (Scene::Placed { name: "torn", matrix: [40, 0, 0, 40], noise: 50, ground: Ground::Holes }, 2),
@@ -300,7 +303,11 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
 
 fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) -> Result<Case, RunError> {
     let special = turn >= 1000;
-    let map_size = if special { WIDE[turn / 2 % WIDE.len()] } else { SHAPES[(turn + turn / 9) % SHAPES.len()] };
+    let map_size = match scene {
+        Scene::Speckle if turn % 2 == 0 => HIGH,
+        _ if special => WIDE[turn / 2 % WIDE.len()],
+        _ => SHAPES[(turn + turn / 9) % SHAPES.len()],
+    };
     let default = threshold_for_depth(model.depth_bits());
     let plan = Plan {
         settings: Settings {
