@@ -208,8 +208,9 @@ impl Scene {
                 Sample { speed: [one(), one()], ..plain }
             }
             Self::Speckle => {
+                let behind_depth = plain.depth + 1;
                 if noise(3) > 1 {
-                    let depth = plain.depth - [0x401, 0x402, 0x403, 0x800, 0x1000][noise(4).unsigned_abs() as usize];
+                    let depth = behind_depth - [0x401, 0x402, 0x403, 0x800, 0x1000][noise(4).unsigned_abs() as usize];
                     return Sample { depth, speed: [200, 60], colour: [16, 240, 128], ..plain };
                 }
                 // Eighths of the near colour, and a bit more or less.
@@ -217,7 +218,8 @@ impl Scene {
                 let behind = [[208, 48, 64], [204, 44, 64]][usize::from(noise(1) > 0)];
                 let mixed = |from: i32, to: i32| (from * (8 - part) + to * part) / 8;
                 let colour = [mixed(behind[0], 16), mixed(behind[1], 240), mixed(behind[2], 128) + noise(1)];
-                Sample { speed: [-200, 0], colour: colour.map(|level| level as u8), ..plain }
+                let colour = colour.map(|level| level as u8);
+                Sample { depth: behind_depth, speed: [-200, 0], colour, ..plain }
             }
             Self::Steps => {
                 let depth = [0x4000, 0x4000, 0x9000][(x / 4 % 3) as usize];

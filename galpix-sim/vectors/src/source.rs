@@ -211,7 +211,7 @@ const SHAPES: [GridSize; 9] = [
 const WIDE: [GridSize; 3] = [SHAPES[0], SHAPES[2], SHAPES[1]];
 
 /// Where what happens in the first and in the last column counts.
-const HIGH: GridSize = grid(9, 30, [0; 4]);
+const HIGH: GridSize = grid(5, 96, [0; 4]);
 
 const fn placed(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
     Scene::Placed { name, matrix, noise, ground: Ground::Level }
