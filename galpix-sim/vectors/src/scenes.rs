@@ -60,6 +60,10 @@ pub enum Scene {
     Swell,
     /// A step of depth and one of speed where depths are equal.
     Steps,
+    /// One depth; speeds that differ by about a quarter of a cell a frame.
+    Hurried,
+    /// Cells of a near surface leave a background, just behind it, with whose colours theirs are mixed.
+    Speckle,
 }
 
 /// What a scene has in a cell.
@@ -92,6 +96,8 @@ impl Scene {
             Self::CloseBackground => "close-background",
             Self::Swell => "swell",
             Self::Steps => "steps",
+            Self::Hurried => "hurried",
+            Self::Speckle => "speckle",
         }
     }
 
@@ -191,11 +197,29 @@ impl Scene {
                 Sample { depth, place: [noise(15), noise(15)], ..plain }
             }
             Self::Swell => {
-                let near = from[0].abs() <= 4 && from[1].abs() <= 3;
+                let near = from[0].abs() <= 4 + noise(1) && from[1].abs() <= 3 + noise(1);
                 match near {
-                    true => Sample { depth: 0x3000, speed: [44 * from[0] + 20, 38 * from[1]], ..plain },
+                    true => Sample { depth: 0x3000, speed: [28 * from[0] + 30, 22 * from[1]], ..plain },
                     false => Sample { depth: 0x9000, ..plain },
                 }
+            }
+            Self::Hurried => {
+                let mut one = || [0, 50, 64, 65, 80][noise(4).unsigned_abs() as usize];
+                Sample { speed: [one(), one()], ..plain }
+            }
+            Self::Speckle => {
+                let behind_depth = plain.depth + 1;
+                if noise(3) > 1 {
+                    let depth = behind_depth - [0x401, 0x402, 0x403, 0x800, 0x1000][noise(4).unsigned_abs() as usize];
+                    return Sample { depth, speed: [200, 60], colour: [16, 240, 128], ..plain };
+                }
+                // Eighths of the near colour, and a bit more or less.
+                let part = noise(4).abs() * 2;
+                let behind = [[208, 48, 64], [204, 44, 64]][usize::from(noise(1) > 0)];
+                let mixed = |from: i32, to: i32| (from * (8 - part) + to * part) / 8;
+                let colour = [mixed(behind[0], 16), mixed(behind[1], 240), mixed(behind[2], 128) + noise(1)];
+                let colour = colour.map(|level| level as u8);
+                Sample { depth: behind_depth, speed: [-200, 0], colour, ..plain }
             }
             Self::Steps => {
                 let depth = [0x4000, 0x4000, 0x9000][(x / 4 % 3) as usize];

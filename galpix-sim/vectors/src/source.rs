@@ -210,6 +210,9 @@ const SHAPES: [GridSize; 9] = [
 /// The first shapes, for scenes that need room.
 const WIDE: [GridSize; 3] = [SHAPES[0], SHAPES[2], SHAPES[1]];
 
+/// Where what happens in the first and in the last column counts.
+const HIGH: GridSize = grid(5, 96, [0; 4]);
+
 const fn placed(name: &'static str, matrix: [i32; 4], noise: u32) -> Scene {
     Scene::Placed { name, matrix, noise, ground: Ground::Level }
 }
@@ -237,7 +240,7 @@ const SCENES: [(Scene, usize); 14] = [
 ];
 
 /// Quads of every form, cracks, rims, and displacements at their limits, over few layouts.
-const SPECIAL: [(Scene, usize); 26] = [
+const SPECIAL: [(Scene, usize); 34] = [
     (placed("at-limit", [44, 0, 0, 44], 0), 2),
     (placed("beyond-across", [45, 0, 0, 32], 0), 1),
     (placed("beyond-down", [32, 0, 0, 45], 0), 2),
@@ -251,8 +254,8 @@ const SPECIAL: [(Scene, usize); 26] = [
     (placed("higher", [50, 0, 0, 133], 9), 1),
     (Scene::Swell, 1),
     (placed("folded", [-60, 0, 0, 60], 0), 1),
-    (placed("edge-on", [60, 60, 20, 21], 0), 1),
-    (placed("flat", [64, 0, 0, 1], 0), 1),
+    (placed("edge-on", [60, 2, 10, 1], 0), 1),
+    (placed("flat", [48, 2, 16, 1], 0), 1),
     (placed("thin", [46, 0, 0, 1], 1), 1),
     (Scene::Placed { name: "torn", matrix: [40, 0, 0, 40], noise: 50, ground: Ground::Holes }, 2),
     (Scene::Placed { name: "farthest", matrix: [46, 0, 0, 46], noise: 6, ground: Ground::Farthest }, 1),
@@ -264,6 +267,14 @@ const SPECIAL: [(Scene, usize); 26] = [
     (Scene::Diagonal { falls: true }, 2),
     (Scene::Drawn(Picture::Empty), 1),
     (Scene::Diagonal { falls: false }, 2),
+    (Scene::Speckle, 1),
+    (Scene::Speckle, 1),
+    (Scene::Speckle, 1),
+    (Scene::Hurried, 1),
+    (placed("sheared", [64, 48, 0, 64], 0), 1),
+    (Scene::Speckle, 2),
+    (Scene::Swell, 2),
+    (Scene::Swell, 1),
 ];
 
 /// Returns all cases, over the layouts of the others and three more.
@@ -292,7 +303,11 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
 
 fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) -> Result<Case, RunError> {
     let special = turn >= 1000;
-    let map_size = if special { WIDE[turn / 2 % WIDE.len()] } else { SHAPES[(turn + turn / 9) % SHAPES.len()] };
+    let map_size = match scene {
+        Scene::Speckle if turn % 2 == 0 => HIGH,
+        _ if special => WIDE[turn / 2 % WIDE.len()],
+        _ => SHAPES[(turn + turn / 9) % SHAPES.len()],
+    };
     let default = threshold_for_depth(model.depth_bits());
     let plan = Plan {
         settings: Settings {
@@ -309,7 +324,7 @@ fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) 
         map_size,
         frame: [0, u32::MAX - 1, 5][turn % 3],
         frames: match scene {
-            Scene::Slide | Scene::Swell => 3,
+            Scene::Slide | Scene::Swell | Scene::Speckle => 3,
             _ if special => turn as u32 % 2,
             _ => [3, 4, 2, 0, 3][turn % 5],
         },
