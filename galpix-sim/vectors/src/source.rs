@@ -304,7 +304,7 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
 fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) -> Result<Case, RunError> {
     let special = turn >= 1000;
     let map_size = match scene {
-        Scene::Speckle if turn % 2 == 0 => HIGH,
+        Scene::Speckle if turn.is_multiple_of(2) => HIGH,
         _ if special => WIDE[turn / 2 % WIDE.len()],
         _ => SHAPES[(turn + turn / 9) % SHAPES.len()],
     };

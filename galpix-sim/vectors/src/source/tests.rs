@@ -76,9 +76,9 @@ fn happened(name: &str, sources: &StationarySources) -> BTreeSet<String> {
     saw("a mixed rim replaced", entries.iter().filter(bare).any(replaced));
     saw("a colour between samples", entries.iter().any(|entry| sources.sub_cell && replaced(entry)));
     saw("a silhouette blended", sources.sub_cell && sources.shown != sources.gathered);
-    for (cell, &key) in sources.keys.iter().enumerate().filter(|(_, key)| **key == EMPTY) {
+    for (cell, _) in sources.keys.iter().enumerate().filter(|(_, key)| **key == EMPTY) {
         let colour = sources.gathered[cell];
-        saw(&format!("a hole of {}", sources.fill_mode), key == EMPTY);
+        saw(&format!("a hole of {}", sources.fill_mode), true);
         saw("a hole extended", sources.fill_mode == "extend" && colour != stored((0, cell)));
         saw("a hole with the colour that was there", sources.fill_mode == "hold" && colour == stored((0, cell)));
     }
@@ -99,7 +99,7 @@ fn colours(sources: &StationarySources, map: &[u32]) -> Vec<u32> {
     (0..cells).map(|cell| (both(cell) >> (32 + of("shift") - of("spill")) & ((1 << of("bits")) - 1)) as u32).collect()
 }
 
-/// Whether a sample of another layer than the base is seen where the base is as near.
+/// Whether entries of two layers have the same depth and kind.
 fn equal_depths(sources: &StationarySources) -> bool {
     let mut keys: BTreeMap<u32, BTreeSet<usize>> = BTreeMap::new();
     for entry in entries(sources) {
