@@ -15,9 +15,9 @@ use crate::map::grid::Grid;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Gather {
-    /// What cells hold that show no sample: [`FillMode::None`] black, [`FillMode::Extend`] the colour of the farther of
-    /// the two surfaces at the ends of their run of holes in the row, all others and rows without a sample the colour
-    /// that the update had there. A cell of which the update knew nothing keeps its colour in any case.
+    /// What cells hold that show no sample: with [`FillMode::None`] black; with [`FillMode::Extend`] the colour of the
+    /// farther of the two surfaces at the ends of their run of holes in the row; with all others, in rows without a
+    /// sample, and where the update knew nothing, the colour that the update had there.
     pub fill_mode: FillMode,
     /// Whether colours are resampled at the centre of the cell; else a cell has the colour of its sample.
     pub sub_cell: bool,
