@@ -143,6 +143,13 @@ impl Links<'_> {
         ((word(cell / WORD) | word(cell / WORD + 1) << 32) >> ((cell % WORD) << 2)) as u32
     }
 
+    /// Returns whether all words that hold the links of some neighbouring cells have all bits.
+    #[inline(always)]
+    fn all_linked(self, cell: u32, count: u32) -> bool {
+        let words = (cell / WORD) as usize..=(cell.wrapping_add(count) / WORD) as usize;
+        self.words.get(words).is_some_and(|words| words.iter().fold(u32::MAX, |all, word| all & word) == u32::MAX)
+    }
+
     /// Returns whether `count` neighbouring cells are all the first ones of quads, see [`Self::quad`], and none of
     /// their samples lies beside a nearer surface.
     #[inline(always)]
@@ -154,6 +161,10 @@ impl Links<'_> {
             return false;
         }
         let (above, below) = (cell.wrapping_sub(self.width), cell + self.width);
+        // Inside of a surface all words around have all bits.
+        if [above, cell, below].iter().all(|&row| self.all_linked(row.wrapping_sub(1), count + 2)) {
+            return true;
+        }
         let (mut missing, mut done) = (0, 0);
         while done <= count {
             let part = (count + 1 - done).min(WORD);

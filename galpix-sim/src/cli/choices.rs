@@ -36,7 +36,7 @@ impl From<RoundingChoice> for Rounding {
 }
 
 /// What is put into holes. Each mode includes the cheaper ones that it builds on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum FillChoice {
     /// Holes are shown black
     None,
@@ -72,23 +72,13 @@ impl From<FillChoice> for Fill {
 }
 
 /// How galpixels move.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
 pub enum SchemeChoice {
     /// From map to map: the paper's galpixmap
     #[default]
     Map,
     /// They stay where the update put them, and each frame finds out where they are seen
     Source,
-}
-
-impl SchemeChoice {
-    /// Returns what is put into holes, unless told otherwise.
-    const fn fill(self) -> FillChoice {
-        match self {
-            Self::Map => FillChoice::Extend,
-            Self::Source => FillChoice::PushPull,
-        }
-    }
 }
 
 impl From<SchemeChoice> for Scheme {
@@ -249,13 +239,12 @@ impl Extrapolation {
     /// *Errors:* what stationary sources do not have.
     pub fn request(&self) -> Result<Request, CliError> {
         let scheme = Scheme::from(self.scheme);
-        let fill = self.fill.unwrap_or(self.scheme.fill());
-        if self.scheme == SchemeChoice::Source {
-            use FillChoice::{Bullet, Debris, Galdebris, Metamer};
-            if let Debris | Bullet | Galdebris | Metamer = fill {
-                let name = Fill::from(fill).name();
+        let fill = self.fill.map_or(scheme.fill(), Fill::from);
+        if scheme == Scheme::Source {
+            if !scheme.takes(fill) {
                 let sentence = format!(
-                    "`--fill {name}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull"
+                    "`--fill {}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull",
+                    fill.name()
                 );
                 return Err(CliError::unusable(sentence));
             }
@@ -270,7 +259,7 @@ impl Extrapolation {
             recog: self.recog,
             prop: self.prop,
             rounding: self.rounding.into(),
-            fill: self.inpainting.of(fill.into()),
+            fill: self.inpainting.of(fill),
             reach: self.reach,
             edge_threshold: self.edge_threshold,
             scheme,

@@ -16,7 +16,9 @@ use cpu_time::ThreadTime;
 use galpix_core::layers::{Layer, Layers};
 use galpix_core::overlay::Overlay;
 use galpix_core::source::{MOST_SAMPLES, Sources};
-use galpix_core::{BudgetError, Colour, Controller, Dynamic, Grid, Maps, Margin, Settings, SetupError, Tally};
+use galpix_core::{
+    BudgetError, Colour, Controller, Dynamic, FillMode, Grid, Maps, Margin, Settings, SetupError, Tally,
+};
 
 pub use frame::Frame;
 pub use layer::HiddenLayer;
@@ -27,7 +29,7 @@ pub use scan_out::ScanOut;
 
 use crate::update::Update;
 use base::Base;
-use fill::{Inpaint, Inpainter};
+use fill::{Fill, Inpaint, Inpainter, Kind};
 use frame::{Shown, display_cells};
 use load::load_at;
 use origins::Origins;
@@ -98,6 +100,26 @@ impl Scheme {
         match self {
             Self::Map => "map",
             Self::Source => "source",
+        }
+    }
+
+    /// Returns what is put into holes, unless told otherwise.
+    #[must_use]
+    pub fn fill(self) -> Fill {
+        match self {
+            Self::Map => Fill::default(),
+            Self::Source => Kind::PushPull.into(),
+        }
+    }
+
+    /// Returns whether holes can be filled like this.
+    #[must_use]
+    pub const fn takes(self, fill: Fill) -> bool {
+        use FillMode::{Extend, Hold, None};
+        match (self, fill) {
+            (Self::Map, _) | (Self::Source, Fill::Mode(None | Hold | Extend)) => true,
+            (Self::Source, Fill::Inpaint(inpaint)) => matches!(inpaint.kind, Kind::PushPull),
+            (Self::Source, Fill::Mode(_)) => false,
         }
     }
 

@@ -171,6 +171,13 @@ impl<'s> Job<'s> {
         Self { settings, request, ..self.clone() }
     }
 
+    /// Returns the same job in another scheme, with its usual fill and scan-out.
+    #[must_use]
+    pub fn with_scheme(&self, scheme: Scheme) -> Self {
+        let request = Request { scheme, scan_out: scheme.scan_out(), ..self.request };
+        Self { request, ..self.clone() }.with_fill(scheme.fill())
+    }
+
     /// Returns the same job with positions rounded in another strategy.
     #[must_use]
     pub fn with_rounding(&self, rounding: Rounding) -> Self {

@@ -9,6 +9,7 @@ use super::job::{ExperimentError, Job, Request};
 use super::run::{self, FrameReport, RunReport, Shown};
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
 use crate::certificate::FrameBound;
+use crate::engine::Scheme;
 use crate::output::column::Table;
 use crate::output::film::{self, Colours};
 use crate::output::html::{self, CertificateLine, Report, Row, Story};
@@ -23,6 +24,9 @@ const FILM_BYTES: usize = 1_000_000;
 
 /// Frames of each scene that are made again in both modes, to compare their times.
 const FRAMES_FOR_GAIN: u32 = 5;
+
+/// The scene in which what turns is shown in both schemes.
+const IN_BOTH_SCHEMES: &str = "disc";
 
 /// What is demonstrated.
 #[derive(Clone, Copy, Debug)]
@@ -106,9 +110,14 @@ struct SceneReport {
 
 /// Runs a source and makes its story.
 fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport, ExperimentError> {
+    let both = job.source.name() == IN_BOTH_SCHEMES && job.request.scheme == Scheme::Map;
+    let mut as_sources = Vec::new();
+    if both {
+        run::job(&job.with_scheme(Scheme::Source), |shown| as_sources.push(shown.picture.clone()))?;
+    }
     let mut pictures = Vec::new();
     let run = run::job(job, |shown| {
-        pictures.extend(panels(shown));
+        pictures.extend(panels(shown, as_sources.get(shown.frame as usize)));
         done(Work::Done);
     })?;
     let gain = run::work_gain(job, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?;
@@ -116,6 +125,13 @@ fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport
         "Constant work, the mode whose instructions do not depend on the picture, takes {gain:.1} times as long as a frame that \
          skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."
     )];
+    if both {
+        notes.push(
+            "The fourth picture of the film is the same update as stationary sources (galpix run disc --scheme source): no \
+             galpixel is lost in a collision, and colours are resampled."
+                .to_owned(),
+        );
+    }
     if run.loaded.saturated > 0 {
         notes.push(format!("{} fields of the update were clamped to their range.", run.loaded.saturated));
     }
@@ -169,17 +185,21 @@ fn budget_line(run: &RunReport) -> String {
     )
 }
 
-/// Truth, sample-and-hold, galpix and their difference, side by side; frames without a truth are left out.
-fn panels(shown: &Shown<'_>) -> Option<Picture> {
+/// Truth, sample-and-hold, galpix, the other scheme where there is one, and the difference of galpix, side by side;
+/// frames without a truth are left out.
+fn panels(shown: &Shown<'_>, as_sources: Option<&Picture>) -> Option<Picture> {
     let truth = &shown.truth?.picture;
     let difference = film::difference(shown.picture, truth);
-    let panels = [
-        film::labelled(truth, "truth"),
-        film::labelled(shown.hold, "sample-and-hold"),
-        film::labelled(shown.picture, "galpix"),
-        film::labelled(&difference, "difference x4"),
+    let pictures = [
+        Some((truth, "truth")),
+        Some((shown.hold, "sample-and-hold")),
+        Some((shown.picture, "galpix")),
+        as_sources.map(|picture| (picture, "sources")),
+        Some((&difference, "difference x4")),
     ];
-    Some(film::side_by_side(&panels.each_ref(), 4))
+    let panels: Vec<Picture> =
+        pictures.into_iter().flatten().map(|(picture, label)| film::labelled(picture, label)).collect();
+    Some(film::side_by_side(&panels.iter().collect::<Vec<_>>(), 4))
 }
 
 fn row(frame: &FrameReport) -> Row {

@@ -4,6 +4,7 @@
 
 use core::ops::Range;
 
+use crate::fast::wide::run_length;
 use crate::format::Format;
 use crate::format::colour::{Channel, Colour, WEIGHTS};
 use crate::source::row::{self, GatherRow, gather_cell};
@@ -86,25 +87,28 @@ impl Run {
     /// As [`Self::look`], for cells some of which are empty or do not lie in neighbouring quads.
     #[inline(never)]
     fn look_at_each<F: Format>(&mut self, layers: &[Source<'_, F>], keys: &[u16], words: &[u32]) -> u32 {
-        // A bit for each cell whose quad is not beside that of the cell before, and for each that is empty.
-        let (mut breaks, mut empty) = (0, (u64::from(u32::MAX) << keys.len()) as u32);
+        // All ones for cells that are empty, or beyond the end of the row.
+        let mut empty = [u32::MAX; RUN];
+        for (empty, &key) in empty.iter_mut().zip(keys) {
+            *empty = if key == EMPTY { u32::MAX } else { 0 };
+        }
+        // Not 0 for cells that are not of a run with the cell before: of empty ones, or of quads side by side.
+        let mut boundary = [0; RUN];
         for lane in 1..RUN {
-            breaks |= u32::from(self.quads[lane] != self.quads[lane - 1].wrapping_add(1)) << lane;
+            let apart = self.quads[lane].wrapping_sub(self.quads[lane - 1]).wrapping_sub(1);
+            let both_empty = empty[lane] & empty[lane - 1];
+            boundary[lane] = (apart & !both_empty | empty[lane] ^ empty[lane - 1]) as i32;
         }
-        for (lane, &key) in keys.iter().enumerate().take(RUN) {
-            empty |= u32::from(key == EMPTY) << lane;
-        }
-        let (mut alone, mut left) = (0, !empty);
-        while left != 0 {
-            let lane = left.trailing_zeros();
-            let ends = (breaks | empty) & (u32::MAX << 1 << lane);
-            let end = ends.trailing_zeros();
-            let lanes = u32::MAX >> (u32::BITS - (end - lane)) << lane;
-            let at = lane as usize & (RUN - 1);
-            if !self.read(layers, words.get(at).copied().unwrap_or_default(), self.quads[at], at..end as usize) {
-                alone |= lanes;
+        let (mut alone, mut lane) = (0, 0);
+        while lane < RUN {
+            let end = lane + 1 + run_length(boundary.get(lane + 1..).unwrap_or_default());
+            if empty[lane] == 0 {
+                let word = words.get(lane).copied().unwrap_or_default();
+                if !self.read(layers, word, self.quads[lane], lane..end) {
+                    alone |= u32::MAX >> (RUN - (end - lane)) << lane;
+                }
             }
-            left &= !lanes;
+            lane = end;
         }
         alone
     }
