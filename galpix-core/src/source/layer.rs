@@ -4,6 +4,7 @@ use super::links::{self, Links};
 use super::visibility::PARTS;
 use crate::error::SetupError;
 use crate::format::Format;
+use crate::format::record::Field;
 use crate::layers::{Displacement, displacement};
 use crate::map::Galpixmap;
 
@@ -85,11 +86,8 @@ impl<'p, F: Format> Source<'p, F> {
     pub(crate) fn place(&self, cell: u32) -> [i32; 2] {
         let record = self.map.record();
         let [x, y] = self.displacement(cell);
-        let part = |component: usize| {
-            let field = record.offset(component);
-            parts::<CORNER_PARTS>(self.map.signed(field, cell), field.bits.into())
-        };
-        [(x << CORNER_PARTS) + part(0), (y << CORNER_PARTS) + part(1)]
+        let part = |field: Field| parts::<CORNER_PARTS>(self.map.signed(field, cell), field.bits.into());
+        [(x << CORNER_PARTS) + part(record.offset_x()), (y << CORNER_PARTS) + part(record.offset_y())]
     }
 }
 

@@ -38,17 +38,20 @@ const RECIPROCALS: [u16; 64] = {
     table
 };
 
-/// Returns about `2^20 / number`, for a positive number.
+/// Returns about `2^20 / number`, for a positive number. Shifts by ones: not every processor counts leading zeros.
 #[inline(always)]
 fn reciprocal(number: i32) -> i32 {
-    let bits = 32 - number.leading_zeros();
-    if bits >= MANTISSA {
-        let shift = bits - MANTISSA;
-        i32::from(RECIPROCALS[(number >> shift) as usize & 63]) >> shift
-    } else {
-        let shift = MANTISSA - bits;
-        i32::from(RECIPROCALS[(number << shift) as usize & 63]) << shift
+    const LEAST: i32 = 1 << (MANTISSA - 1);
+    let (mut mantissa, mut up, mut down) = (number, 0, 0);
+    while mantissa >= LEAST << 1 {
+        mantissa >>= 1;
+        down += 1;
     }
+    while mantissa < LEAST {
+        mantissa <<= 1;
+        up += 1;
+    }
+    i32::from(RECIPROCALS[mantissa as usize & 63]) >> down << up
 }
 
 /// Shows the stretched quads of a layer; returns how many were drawn.
@@ -87,11 +90,13 @@ pub(crate) fn draw_one<F: Format>(
     }
     // The first corner as seen from the first cell of the grid.
     let corner = [(x << CORNER_PARTS) + place[0], (y << CORNER_PARTS) + place[1]];
-    let cells = [0, 1].map(|i| {
-        let (low, high) = (a[i].min(b[i]).min(c[i]).min(0), a[i].max(b[i]).max(c[i]).max(0));
-        ((corner[i] + low + CELL - 1) >> CORNER_PARTS, (corner[i] + high - 1) >> CORNER_PARTS)
-    });
-    if cells.iter().any(|(low, high)| high - low >= LARGEST) {
+    // The first and the last cell in x or y.
+    let span = |corner: i32, [a, b, c]: [i32; 3]| {
+        let (low, high) = (a.min(b).min(c).min(0), a.max(b).max(c).max(0));
+        ((corner + low + CELL - 1) >> CORNER_PARTS, (corner + high - 1) >> CORNER_PARTS)
+    };
+    let (columns, rows) = (span(corner[0], [a[0], b[0], c[0]]), span(corner[1], [a[1], b[1], c[1]]));
+    if columns.1 - columns.0 >= LARGEST || rows.1 - rows.0 >= LARGEST {
         return false;
     }
     // The corners are now known to be near each other, so that no product overflows.
@@ -103,8 +108,8 @@ pub(crate) fn draw_one<F: Format>(
     let depth = depth(source.map.unsigned(record.depth(), cell), record.depth().bits.into());
     let (slack, reciprocal) = (area >> 2, reciprocal(area));
     let sixteenths = |part: i32| (part * reciprocal + (1 << (RECIPROCAL - PARTS) >> 1)) >> (RECIPROCAL - PARTS);
-    for row in cells[1].0..=cells[1].1 {
-        for column in cells[0].0..=cells[0].1 {
+    for row in rows.0..=rows.1 {
+        for column in columns.0..=columns.1 {
             let Some(target) = grid.cell(column, row) else { continue };
             let from = [(column << CORNER_PARTS) - corner[0], (row << CORNER_PARTS) - corner[1]];
             let u = b[1] * from[0] - b[0] * from[1];
