@@ -69,6 +69,8 @@ mod frame;
 mod map;
 mod maps;
 mod output;
+#[cfg(test)]
+mod random;
 
 pub mod ddoc;
 pub mod disocclusion;

@@ -210,7 +210,7 @@ passes! {
         layers::make::<Self, true>;
     fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
     fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
-    fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = source::link;
+    fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = source::links::link;
     fn sources_draw(
         layers: &mut [Source<'_, Self>],
         visibility: &mut Visibility<'_>,

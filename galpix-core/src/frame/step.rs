@@ -48,6 +48,15 @@ pub const fn snap(scale: &Scale, position: i32) -> i32 {
     (position + ((1 << scale.position_frac) >> 1)) >> scale.position_frac
 }
 
+/// Returns an offset with `frac` fraction bits in `2^PARTS` parts of a cell.
+///
+/// *Rounding:* to nearest, halves upwards; exact with up to `PARTS` fraction bits.
+#[inline(always)]
+#[must_use]
+pub(crate) const fn parts<const PARTS: u32>(offset: i32, frac: u32) -> i32 {
+    if frac <= PARTS { offset << (PARTS - frac) } else { (offset + (1 << (frac - PARTS) >> 1)) >> (frac - PARTS) }
+}
+
 /// Returns the frame's rounding thresholds for x, y and depth.
 #[inline(always)]
 pub(crate) fn thresholds(record: &Record, rounding: Rounding, frame: u32) -> [i32; 3] {

@@ -23,6 +23,7 @@ use crate::format::budget::WIDEST_FIELD;
 use crate::format::colour::WEIGHTS;
 use crate::format::record::Field;
 use crate::frame::reference::{choose, negative};
+use crate::frame::step::parts;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 use crate::output::scan_out::Sampling;
@@ -117,14 +118,6 @@ impl<F: Format> Iterator for Resampled<'_, '_, F> {
 }
 
 impl<F: Format> ExactSizeIterator for Resampled<'_, '_, F> {}
-
-/// Returns an offset with `frac` fraction bits in parts of a cell, from -128 to 128.
-///
-/// *Rounding:* to nearest, halves upwards; exact with up to 8 fraction bits.
-#[inline(always)]
-const fn parts(offset: i32, frac: u32) -> i32 {
-    if frac <= PARTS { offset << (PARTS - frac) } else { (offset + (1 << (frac - PARTS) >> 1)) >> (frac - PARTS) }
-}
 
 /// What is read of a run of cells of one row.
 struct Lanes {
@@ -308,7 +301,7 @@ impl<F: Format> Rows<'_, '_, F> {
     #[inline(always)]
     fn read_offsets(&self, part: &Part, field: Field, lane: &mut Lane<i32>) {
         let how = field.extract();
-        self.read(part, field, lane, |upper, lower| parts(how.signed(upper, lower), field.bits.into()));
+        self.read(part, field, lane, |upper, lower| parts::<PARTS>(how.signed(upper, lower), field.bits.into()));
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@ use super::visibility::PARTS;
 use crate::error::SetupError;
 use crate::format::Format;
 use crate::format::record::Field;
+use crate::frame::step::parts;
 use crate::layers::{Displacement, displacement};
 use crate::map::Galpixmap;
 
@@ -89,14 +90,6 @@ impl<'p, F: Format> Source<'p, F> {
         let part = |field: Field| parts::<CORNER_PARTS>(self.map.signed(field, cell), field.bits.into());
         [(x << CORNER_PARTS) + part(record.offset_x()), (y << CORNER_PARTS) + part(record.offset_y())]
     }
-}
-
-/// Returns an offset with `frac` fraction bits in `2^PARTS` parts of a cell.
-///
-/// *Rounding:* to nearest, halves upwards.
-#[inline(always)]
-pub(crate) const fn parts<const PARTS: u32>(offset: i32, frac: u32) -> i32 {
-    if frac <= PARTS { offset << (PARTS - frac) } else { (offset + (1 << (frac - PARTS) >> 1)) >> (frac - PARTS) }
 }
 
 /// Returns the residual of the cell that is nearest to a sample with these offsets, in sixteenths of a cell.

@@ -141,6 +141,12 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
     /// The bits of the depths that [`Self::known`] writes, and of an edge threshold for them.
     pub const DEPTH_BITS: u32 = visibility::DEPTH_BITS;
 
+    /// Returns an edge threshold for depths of [`Self::DEPTH_BITS`] bits.
+    #[must_use]
+    pub fn depth_threshold(&self, edge_threshold: u32) -> u32 {
+        threshold(edge_threshold, self.base().map_or(0, |map| map.record().depth().bits.into())) as u32
+    }
+
     /// Returns the base's samples.
     #[must_use]
     pub fn base(&self) -> Option<&Galpixmap<'p, F>> {
@@ -214,11 +220,6 @@ pub(crate) fn scatter<F: Format>(
     let tally = scatter::scatter(source, visibility, first, edge_threshold, step);
     quads::draw(source, visibility, first);
     tally
-}
-
-/// Links the samples of a map.
-pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
-    links::link(map, edge_threshold, links);
 }
 
 /// Returns the layer of a sample, the number of its first sample, and its own number.

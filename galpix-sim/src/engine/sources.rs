@@ -5,14 +5,13 @@ use std::time::Duration;
 use cpu_time::ThreadTime;
 use galpix_core::inpaint::{Inpainting, Motion, Picture, PushPull};
 use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
-use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Grid, Settings, SetupError, Tally};
+use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Grid, SetupError, Tally};
 
 use super::fill::in_fovea;
 use super::frame::{Frame, Shown, display_cells, places_of};
 use super::load::{grid, margin};
-use crate::update::Update;
-
 use super::{Delivered, Engine, EngineError, HiddenLayer, NO_ORIGIN, Pins, Ran, ScanOut, Visit, load};
+use crate::update::Update;
 
 /// The memory of sources over one grid.
 pub(super) struct Memory {
@@ -200,12 +199,9 @@ impl Engine {
             for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
                 sources.known(y, known, depths);
             }
-            let bits = Sources::<Dynamic>::DEPTH_BITS;
-            let own = u32::from(self.format.record().depth().bits);
-            let Settings { edge_threshold, .. } = self.settings;
-            let threshold = if own > bits { edge_threshold >> (own - bits) } else { edge_threshold << (bits - own) };
             let inpainting = if inpaint.depth_aware {
-                Inpainting::for_edge_threshold(threshold, bits, inpaint.gamma)
+                let threshold = sources.depth_threshold(self.settings.edge_threshold);
+                Inpainting::for_edge_threshold(threshold, Sources::<Dynamic>::DEPTH_BITS, inpaint.gamma)
             } else {
                 Inpainting { gamma: inpaint.gamma, ..Inpainting::classic() }
             };

@@ -79,6 +79,21 @@ impl Chunk {
         self.source as usize..self.source as usize + self.cells
     }
 
+    /// Takes words that a step does not change, and their keys.
+    #[inline(always)]
+    fn set_unchanged(&mut self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS]) {
+        for (to, from) in self.words.iter_mut().zip(sources).take(record.words()) {
+            *to = **from;
+        }
+        for lane in 0..CHUNK {
+            let mut words = [0; MAX_WORDS];
+            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
+                *word = lanes[lane];
+            }
+            self.keys[lane] = resolve::key(record, &words);
+        }
+    }
+
     const fn new() -> Self {
         Self {
             words: [[0; CHUNK]; MAX_WORDS],
@@ -273,16 +288,7 @@ impl<F: Format> Target<'_, '_, F> {
 
     /// Stores a chunk in which a step changes nothing.
     fn store_unchanged(&mut self, record: &Record, sources: &[&[u32; CHUNK]; MAX_WORDS], chunk: &mut Chunk) {
-        for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
-            *to = **from;
-        }
-        for lane in 0..CHUNK {
-            let mut words = [0; MAX_WORDS];
-            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
-                *word = lanes[lane];
-            }
-            chunk.keys[lane] = resolve::key(record, &words);
-        }
+        chunk.set_unchanged(record, sources);
         (chunk.dx[0], chunk.dy[0]) = (0, 0);
         self.store_run(chunk, 0..chunk.cells);
     }

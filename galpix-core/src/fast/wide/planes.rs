@@ -17,7 +17,7 @@ type Chunk = [[u32; CHUNK]; MAX_WORDS];
 
 /// Extracts a field of all lanes with `extract_with`.
 #[inline(always)]
-fn unpack(field: Field, words: &Chunk, lanes: &mut Lanes, extract_with: impl Fn(Extract, u32, u32) -> i32) {
+pub(super) fn unpack(field: Field, words: &Chunk, lanes: &mut Lanes, extract_with: impl Fn(Extract, u32, u32) -> i32) {
     if !field.present() {
         *lanes = [0; CHUNK];
         return;

@@ -14,21 +14,10 @@ use crate::map::Galpixmap;
 use crate::map::galpixel::{Class, Galpixel};
 use crate::map::grid::{Grid, Margin};
 use crate::output::scan_out::{self, Sampling};
+use crate::random::Random;
 use fixed::types::I32F32;
 
 const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 64, recog: 8, prop: 16 }));
-
-/// A splitmix64 generator.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z >> 32) as u32
-    }
-}
 
 /// A cell as the reference has it.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,9 @@
 use super::*;
 use crate::fast;
 use crate::frame::Settings;
+use crate::frame::step::parts;
 use crate::source::cracks::{self, Closed};
-use crate::source::layer::{parts, residual};
+use crate::source::layer::residual;
 use crate::source::links::Links;
 use crate::source::visibility::{EMPTY, Entry, FARTHEST, Kind, MOST_SAMPLES};
 

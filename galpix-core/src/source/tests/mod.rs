@@ -20,38 +20,10 @@ use crate::format::{Dynamic, Format, Profile, Static};
 use crate::map::Galpixmap;
 use crate::map::galpixel::{Class, Galpixel};
 use crate::map::grid::{Grid, Margin};
+use crate::random::Random;
 use fixed::types::I32F32;
 
 const BITS: Bits = Bits::must(Bits::derive(Demand { extent: 64, recog: 8, prop: 16 }));
-
-/// A splitmix64 generator.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z >> 32) as u32
-    }
-
-    /// One of the numbers `0 .. count`.
-    fn below(&mut self, count: u32) -> u32 {
-        self.next() % count
-    }
-
-    fn words(&mut self, count: usize) -> Vec<u32> {
-        let mut words = vec![0; count];
-        words.fill_with(|| self.next());
-        words
-    }
-
-    fn shuffle<T>(&mut self, list: &mut [T]) {
-        for end in (1..list.len()).rev() {
-            list.swap(end, self.next() as usize % (end + 1));
-        }
-    }
-}
 
 /// The display of a map, and its margin.
 type Shape = (u32, u32, Margin);

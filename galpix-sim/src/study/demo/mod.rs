@@ -104,8 +104,9 @@ impl Study for Plan {
 struct SceneReport {
     run: RunReport,
     story: Story,
-    /// The time of a constant-time frame divided by that of a data-dependent one.
-    gain: f64,
+    /// The time of a constant-time frame divided by that of a data-dependent one; `None` in the scheme of stationary
+    /// sources, which has no constant-time frame.
+    gain: Option<f64>,
 }
 
 /// Runs a source and makes its story.
@@ -120,11 +121,17 @@ fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport
         pictures.extend(panels(shown, as_sources.get(shown.frame as usize)));
         done(Work::Done);
     })?;
-    let gain = run::work_gain(job, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?;
-    let mut notes = vec![format!(
-        "Constant work, the mode whose instructions do not depend on the picture, takes {gain:.1} times as long as a frame that \
-         skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."
-    )];
+    let gain = match job.request.scheme {
+        Scheme::Map => Some(run::work_gain(job, run.frames.len().min(FRAMES_FOR_GAIN as usize) as u32)?),
+        Scheme::Source => None,
+    };
+    let mut notes = Vec::new();
+    if let Some(gain) = gain {
+        notes.push(format!(
+            "Constant work, the mode whose instructions do not depend on the picture, takes {gain:.1} times as long as a \
+             frame that skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."
+        ));
+    }
     if both {
         notes.push(
             "The fourth picture of the film is the same update as stationary sources (galpix run disc --scheme source): no \

@@ -1,13 +1,11 @@
 //! Closes cracks: of many cells at a time it is found out which have nearer ones on opposite sides.
 
+use super::{RUN, run_at, run_before};
 use crate::format::Format;
 use crate::map::grid::Grid;
 use crate::source::Source;
 use crate::source::cracks::{Closed, best};
 use crate::source::visibility::{EMPTY, Kind, Visibility};
-
-/// Cells that are looked at at a time.
-const RUN: usize = 32;
 
 /// Closes cracks, see [`crate::source::cracks::close`].
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
@@ -65,7 +63,8 @@ impl<'v> Rows<'v> {
 /// Counts points and empty cells.
 #[inline(always)]
 fn flag(rows: &Rows<'_>, x: usize, near: u16, flags: &mut [u16; RUN], closed: &mut Closed) -> u16 {
-    let of = |row: &[u16]| [before(row, x), run_at(row, x), run_at(row, x + 1)];
+    // Beyond the ends of a row nothing is shown.
+    let of = |row: &[u16]| [run_before(row, x, EMPTY), run_at(row, x, EMPTY), run_at(row, x + 1, EMPTY)];
     let ([above_left, above, above_right], [below_left, below, below_right]) = (of(rows.above), of(rows.below));
     let [left, own, right] = of(rows.row);
     let (mut points, mut empties, mut any) = (0u16, 0u16, 0);
@@ -86,31 +85,4 @@ fn flag(rows: &Rows<'_>, x: usize, near: u16, flags: &mut [u16; RUN], closed: &m
     closed.points += u32::from(points);
     closed.empty += u32::from(empties) - beyond as u32;
     any
-}
-
-/// Returns the keys of a run. Beyond the end of the row nothing is shown.
-#[inline(always)]
-fn run_at(row: &[u16], x: usize) -> [u16; RUN] {
-    let from = row.get(x..).unwrap_or_default();
-    if let Some(run) = from.first_chunk() {
-        return *run;
-    }
-    let mut run = [EMPTY; RUN];
-    for (to, &key) in run.iter_mut().zip(from) {
-        *to = key;
-    }
-    run
-}
-
-/// Returns the keys of the cells before those of a run. Before the first one nothing is shown.
-#[inline(always)]
-fn before(row: &[u16], x: usize) -> [u16; RUN] {
-    if let Some(x) = x.checked_sub(1) {
-        return run_at(row, x);
-    }
-    let mut before = [EMPTY; RUN];
-    for (to, &key) in before.iter_mut().skip(1).zip(row) {
-        *to = key;
-    }
-    before
 }

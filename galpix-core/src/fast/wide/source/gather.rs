@@ -4,15 +4,13 @@
 
 use core::ops::Range;
 
+use super::RUN;
 use crate::fast::wide::run_length;
 use crate::format::Format;
 use crate::format::colour::{Channel, Colour, WEIGHTS};
 use crate::source::row::{self, GatherRow, gather_cell};
 use crate::source::visibility::{EMPTY, PARTS, RESIDUAL_BITS, Visibility};
 use crate::source::{Source, layer_of};
-
-/// Cells that are gathered at a time.
-const RUN: usize = 32;
 
 /// A cell in the parts in which residuals count.
 const CELL: u32 = 1 << PARTS;

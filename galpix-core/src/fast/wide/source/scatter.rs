@@ -6,17 +6,18 @@
 
 use core::ops::Range;
 
+use crate::fast::wide::planes::unpack;
 use crate::fast::wide::{CHUNK, Chunk, is_unchanged, lanes_of, motion_bits, run_length, step_chunk};
 use crate::format::Format;
-use crate::format::record::{Field, MAX_WORDS, Words};
+use crate::format::record::{MAX_WORDS, Words};
 use crate::format::rounding::Rounding;
 use crate::frame::resolve;
-use crate::frame::step::{advance, thresholds};
+use crate::frame::step::{advance, parts, thresholds};
 use crate::frame::tally::Tally;
 use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
-use crate::source::layer::{CORNER_PARTS, parts};
+use crate::source::layer::CORNER_PARTS;
 use crate::source::quads::{self, STRETCHED};
 use crate::source::scatter::moved;
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
@@ -95,15 +96,6 @@ pub(crate) fn scatter<F: Format>(
     pass.tally
 }
 
-/// Extracts a field of all lanes as two's complement numbers.
-#[inline(always)]
-fn signed(field: Field, words: &[[u32; CHUNK]; MAX_WORDS], lanes: &mut [i32; CHUNK]) {
-    let ((upper, lower), extract) = (field.words(), field.extract());
-    for ((lane, &upper), &lower) in lanes.iter_mut().zip(&words[upper]).zip(&words[lower]) {
-        *lane = extract.signed(upper, lower);
-    }
-}
-
 impl<F: Format> Pass<'_, '_, '_, '_, F> {
     /// Steps and shows the samples of a chunk.
     #[inline(always)]
@@ -152,16 +144,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         {
             return Some(step_chunk::<F>(record, thresholds, &sources, chunk));
         }
-        for (to, from) in chunk.words.iter_mut().zip(sources).take(record.words()) {
-            *to = *from;
-        }
-        for lane in 0..CHUNK {
-            let mut words = [0; MAX_WORDS];
-            for (word, lanes) in words.iter_mut().zip(sources).take(record.words()) {
-                *word = lanes[lane];
-            }
-            chunk.keys[lane] = resolve::key(record, &words);
-        }
+        chunk.set_unchanged(record, &sources);
         None
     }
 
@@ -287,7 +270,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         const MASK: u32 = (1 << RESIDUAL_BITS) - 1;
         for (component, field) in [record.offset_x(), record.offset_y()].into_iter().enumerate() {
             let frac = u32::from(field.bits);
-            signed(field, &chunk.words, &mut shown.field);
+            unpack(field, &chunk.words, &mut shown.field, |extract, upper, lower| extract.signed(upper, lower));
             for lane in 0..CHUNK {
                 let offset = shown.field[lane];
                 let residual = parts::<PARTS>(offset, frac).wrapping_neg() as u32 & MASK;
