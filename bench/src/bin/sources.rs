@@ -5,8 +5,8 @@
 //! taskset -c 1 cargo run --release -p galpix-bench --bin sources -- 320x240 31  # pinned to a core
 //! ```
 //!
-//! A map is stepped with extend and shown nearest, or sub-cell; sources are stepped, gathered with extend, and
-//! finished.
+//! A map is stepped with extend and shown nearest, or sub-cell; sources are stepped, and shown with extend row by row:
+//! gathered, filled and finished.
 //! The columns are described in `race.rs`; `x faster` is measured against the step of the map.
 
 use std::cell::RefCell;
@@ -29,7 +29,8 @@ struct Stage<F: 'static> {
     settings: Settings,
     /// The update.
     update: Galpixmap<'static, F>,
-    gathered: Vec<u32>,
+    /// Gathered rows: the row above, the row itself and the row below.
+    rows: [Vec<u32>; 3],
     line: Vec<u32>,
 }
 
@@ -43,15 +44,15 @@ impl<F: Format> Stage<F> {
         paint(&mut update, samples);
         let source = Source::new(map(), vec![0; cells].leak(), vec![0; link_words(&grid)].leak());
         let layers = Box::leak(Box::new([source.expect("memory enough")]));
-        let line = vec![0; Visibility::line_words(&grid)].leak();
+        let line = vec![0; Visibility::line_half_words(&grid)].leak();
         let visibility = Visibility::new(&grid, vec![0; cells].leak(), vec![0; cells].leak(), line);
         let sources = Sources::new(layers, visibility.expect("memory enough")).expect("layers of one grid");
         let settings = Settings::for_depth(format.record().depth().bits.into());
-        let mut stage =
-            Self { grid, sources, settings, update, gathered: vec![0; cells], line: vec![0; width as usize] };
+        let row = || vec![0; width as usize];
+        let mut stage = Self { grid, sources, settings, update, rows: [row(), row(), row()], line: row() };
         stage.begin();
         stage.step();
-        stage.gather();
+        stage.show();
         stage
     }
 
@@ -75,23 +76,22 @@ impl<F: Format> Stage<F> {
         black_box(self.sources.step(&self.settings));
     }
 
-    fn gather(&mut self) {
+    /// Makes all rows of the picture: each is finished as soon as the row below it is gathered.
+    fn show(&mut self) {
         let edge_threshold = self.settings.edge_threshold;
         let gather = Gather { fill_mode: FillMode::Extend, sub_cell: true, edge_threshold };
-        let rows = (0..).zip(self.gathered.chunks_mut(self.grid.width() as usize));
-        black_box(rows.map(|(y, row)| self.sources.gather(y, gather, row)).sum::<u32>());
-    }
-
-    fn finish(&mut self) {
-        let width = self.grid.width() as usize;
-        let mut line = std::mem::take(&mut self.line);
-        for y in 0..self.grid.height() as usize {
-            let row = |y: usize| self.gathered.get(y * width..(y + 1) * width).unwrap_or_default();
-            let above = y.checked_sub(1).map(row).unwrap_or_default();
-            self.sources.finish(y as u32, self.settings.edge_threshold, [above, row(y), row(y + 1)], &mut line);
-            black_box(&mut line);
+        let height = self.grid.height();
+        let [mut above, mut row, mut below] = self.rows.each_mut().map(core::mem::take);
+        let mut holes = self.sources.gather(0, gather, &mut row);
+        for y in 0..height {
+            holes += self.sources.gather(y + 1, gather, &mut below);
+            let around = [if y == 0 { &[] } else { &*above }, &row, if y + 1 == height { &[] } else { &*below }];
+            self.sources.finish(y, edge_threshold, around, &mut self.line);
+            black_box(&mut self.line);
+            (above, row, below) = (row, below, above);
         }
-        self.line = line;
+        black_box(holes);
+        self.rows = [above, row, below];
     }
 }
 
@@ -122,8 +122,11 @@ fn enter<F: Format + 'static>(
     let nothing: Run<F> = |_| {};
     let stages: [(&str, Run<F>, Run<F>); 3] = [
         ("source: step", Stage::begin, Stage::step),
-        ("source: gather", nothing, Stage::gather),
-        ("source: finish", nothing, Stage::finish),
+        ("source: show", nothing, Stage::show),
+        ("source: step and show", Stage::begin, |stage| {
+            stage.step();
+            stage.show();
+        }),
     ];
     for (what, before, run) in stages {
         let (for_before, for_run) = (Rc::clone(&stage), Rc::clone(&stage));

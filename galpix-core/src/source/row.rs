@@ -100,8 +100,8 @@ pub(crate) fn gather_cell<F: Format>(
         let field = layer.map.record().depth();
         visibility::depth(layer.map.unsigned(field, sample), field.bits.into()) as i32
     };
-    let own = depth(layer, sample);
     let in_front = |nearer: u32, side: Side| {
+        let own = depth(layer, sample);
         let [dx, _] = side.towards();
         // Beyond the border nothing is shown.
         let inside = x.wrapping_add_signed(dx) < width;

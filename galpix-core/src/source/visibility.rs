@@ -11,7 +11,7 @@
 //!
 //! The residual is the place of the cell's centre minus that of the sample, in sixteenths of a cell, -16 to 15.
 //!
-//! *Memory:* 6 bytes a cell, and four words a column for [`cracks`](super::cracks).
+//! *Memory:* 6 bytes a cell, and 16 bytes a column for [`cracks`](super::cracks).
 
 use crate::error::SetupError;
 use crate::map::grid::Grid;
@@ -36,6 +36,9 @@ pub(crate) const EMPTY: u16 = u16::MAX;
 
 /// The largest depth of an entry.
 pub(crate) const FARTHEST: u32 = (1 << DEPTH_BITS) - 2;
+
+/// Half-words of an entry that is postponed: column, key, and word.
+const POSTPONED: usize = 4;
 
 /// What a cell shows of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -149,30 +152,30 @@ pub struct Visibility<'p> {
     keys: &'p mut [u16],
     words: &'p mut [u32],
     /// Entries of two rows that are not shown yet, see [`Self::postpone`].
-    line: &'p mut [u32],
+    line: &'p mut [u16],
 }
 
 impl<'p> Visibility<'p> {
-    /// Returns the words of the third buffer of [`Self::new`].
+    /// Returns the half-words of the third buffer of [`Self::new`].
     #[must_use]
-    pub const fn line_words(grid: &Grid<'_>) -> usize {
-        4 * grid.width() as usize
+    pub const fn line_half_words(grid: &Grid<'_>) -> usize {
+        2 * POSTPONED * grid.width() as usize
     }
 
-    /// Makes the buffer for a grid, of a half-word and a word for each cell and [`Self::line_words`] words. What they
-    /// hold does not matter.
+    /// Makes the buffer for a grid, of a half-word and a word for each cell and [`Self::line_half_words`] half-words.
+    /// What they hold does not matter.
     ///
     /// *Errors:* a buffer that is too short.
     pub fn new(
         grid: &Grid<'_>,
         keys: &'p mut [u16],
         words: &'p mut [u32],
-        line: &'p mut [u32],
+        line: &'p mut [u16],
     ) -> Result<Self, SetupError> {
         let cells = grid.cells() as usize;
         let short = |plane, need, have| SetupError::TooShort { plane, need, have };
         let (have_keys, have_words, have_line) = (keys.len(), words.len(), line.len());
-        let need = Self::line_words(grid);
+        let need = Self::line_half_words(grid);
         Ok(Self {
             keys: keys.get_mut(..cells).ok_or(short("plane of keys", cells, have_keys))?,
             words: words.get_mut(..cells).ok_or(short("plane of entries", cells, have_words))?,
@@ -185,17 +188,16 @@ impl<'p> Visibility<'p> {
         self.keys.len() as u32
     }
 
-    /// Makes all cells show no sample.
+    /// Makes all cells show no sample. What their words hold does then not matter.
     pub(crate) fn clear(&mut self) {
         self.keys.fill(EMPTY);
-        self.words.fill(u32::MAX);
     }
 
     /// Returns what a cell shows; nothing outside of the map.
     #[inline(always)]
     pub(crate) fn at(&self, cell: u32) -> Entry {
         match (self.keys.get(cell as usize), self.words.get(cell as usize)) {
-            (Some(&key), Some(&word)) => Entry { key, word },
+            (Some(&key), Some(&word)) if key != EMPTY => Entry { key, word },
             _ => Entry::NONE,
         }
     }
@@ -219,16 +221,16 @@ impl<'p> Visibility<'p> {
 
     /// Returns the keys and the words of all cells, and the line, for passes that take many cells at once.
     #[inline(always)]
-    pub(crate) fn planes(&mut self) -> (&mut [u16], &mut [u32], &mut [u32]) {
+    pub(crate) fn planes(&mut self) -> (&mut [u16], &mut [u32], &mut [u16]) {
         (self.keys, self.words, self.line)
     }
 
     /// Keeps an entry for column `x` of row `y` until [`Self::settle`], as number `count` of its row.
     #[inline(always)]
     pub(crate) fn postpone(&mut self, y: usize, count: usize, x: u32, entry: Entry) {
-        let at = (y & 1) * (self.line.len() >> 1) + 2 * count;
-        if let [place, word, ..] = self.line.get_mut(at..).unwrap_or_default() {
-            (*place, *word) = (x << 16 | u32::from(entry.key), entry.word);
+        let at = (y & 1) * (self.line.len() >> 1) + POSTPONED * count;
+        if let Some(place) = self.line.get_mut(at..).and_then(|line| line.first_chunk_mut()) {
+            *place = [x as u16, entry.key, entry.word as u16, (entry.word >> 16) as u16];
         }
     }
 
@@ -236,11 +238,11 @@ impl<'p> Visibility<'p> {
     #[inline(always)]
     pub(crate) fn settle(&mut self, y: usize, start: u32, count: usize) {
         let at = (y & 1) * (self.line.len() >> 1);
-        let kept = self.line.get(at..at + 2 * count).unwrap_or_default();
-        for pair in kept.chunks_exact(2) {
-            let cell = (start + (pair[0] >> 16)) as usize;
+        let kept = self.line.get(at..at + POSTPONED * count).unwrap_or_default();
+        for &[x, new_key, low, high] in kept.as_chunks::<POSTPONED>().0 {
+            let cell = (start + u32::from(x)) as usize;
             if let (Some(key), Some(word)) = (self.keys.get_mut(cell), self.words.get_mut(cell)) {
-                (*key, *word) = (pair[0] as u16, pair[1]);
+                (*key, *word) = (new_key, u32::from(high) << 16 | u32::from(low));
             }
         }
     }

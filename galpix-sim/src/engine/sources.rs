@@ -41,7 +41,7 @@ impl Memory {
             layers: std::iter::repeat_with(layer).take(layers).collect(),
             keys: vec![0; cells],
             words: vec![0; cells],
-            line: vec![0; Visibility::line_words(grid)],
+            line: vec![0; Visibility::line_half_words(grid)],
         }
     }
 

@@ -136,7 +136,8 @@ impl Model {
         for memory in &mut memories {
             layers.push(memory.layer(grid, self.format, plan.settings.edge_threshold)?);
         }
-        let (mut keys, mut words, mut line) = (vec![0; cells], vec![0; cells], vec![0; Visibility::line_words(&grid)]);
+        let (mut keys, mut words, mut line) =
+            (vec![0; cells], vec![0; cells], vec![0; Visibility::line_half_words(&grid)]);
         let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line)?;
         let mut sources = Sources::new(&mut layers, visibility)?;
         sources.set_frame(plan.frame);

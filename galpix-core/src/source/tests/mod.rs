@@ -101,8 +101,9 @@ fn with_sources<F: Format, R>(
             Source::new(Galpixmap::over(grid, format, map).unwrap(), displacements, links).unwrap()
         })
         .collect();
-    let (mut words, mut line) = (garbage.words(cells), garbage.words(Visibility::line_words(&grid)));
-    let mut keys: Vec<_> = words.iter().map(|&word| word as u16).collect();
+    let halves = |words: &[u32]| -> Vec<_> { words.iter().map(|&word| word as u16).collect() };
+    let mut words = garbage.words(cells);
+    let (mut keys, mut line) = (halves(&words), halves(&garbage.words(Visibility::line_half_words(&grid))));
     let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line).unwrap();
     work(&mut Sources::new(&mut sources, visibility).unwrap())
 }

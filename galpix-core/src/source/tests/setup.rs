@@ -25,7 +25,7 @@ fn each_error_of_setup_says_what_to_do() {
     let visibility = |grid: Grid<'static>, less: [usize; 3]| {
         let cells = grid.cells() as usize;
         let keys = vec![0; cells - less[0]].leak();
-        Visibility::new(&grid, keys, vec![0; cells - less[1]].leak(), vec![0; 4 * 9 - less[2]].leak())
+        Visibility::new(&grid, keys, vec![0; cells - less[1]].leak(), vec![0; 8 * 9 - less[2]].leak())
     };
     let short = |plane, need, have| {
         std::format!("the {plane} needs {need} words and {have} were provided: provide a longer slice")
@@ -35,7 +35,7 @@ fn each_error_of_setup_says_what_to_do() {
     assert_eq!(said(source(grid, 35, 4)), short("plane of displacements", 36, 35));
     assert_eq!(said(visibility(grid, [1, 0, 0])), short("plane of keys", 36, 35));
     assert_eq!(said(visibility(grid, [0, 1, 0])), short("plane of entries", 36, 35));
-    assert_eq!(said(visibility(grid, [0, 0, 1])), short("line of entries", 36, 35));
+    assert_eq!(said(visibility(grid, [0, 0, 1])), short("line of entries", 72, 71));
     assert!(source(grid, 36, 5).is_ok() && source(grid, 99, 99).is_ok());
 
     let shown = |grid| visibility(grid, [0; 3]).unwrap();
@@ -66,7 +66,7 @@ fn there_are_not_more_samples_than_numbers() {
                 Source::new(Galpixmap::over(grid, format, map).unwrap(), displacements, links).unwrap()
             })
             .collect();
-        let (mut keys, mut words, mut line) = (vec![0; cells], vec![0; cells], vec![0; 4 * 2048]);
+        let (mut keys, mut words, mut line) = (vec![0; cells], vec![0; cells], vec![0; 8 * 2048]);
         let samples = u64::from(grid.cells()) * layers.len() as u64;
         let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line).unwrap();
         match Sources::new(&mut layers, visibility) {
@@ -153,7 +153,7 @@ fn a_line_may_hold_anything() {
             sources.layers[0].begin(16);
             for first in 0..4 {
                 // Pairs whose difference, and that of a cell more, is the smallest number.
-                let extremes = [0, i32::MIN as u32, (i32::MIN as u32).wrapping_sub(32), 0];
+                let extremes = [0, i16::MIN as u16, (i16::MIN as u16).wrapping_sub(32), 0];
                 let (_, _, line) = sources.visibility.planes();
                 line.iter_mut().zip(extremes.into_iter().cycle().skip(first)).for_each(|(to, word)| *to = word);
                 assert_eq!(sources.show(&Settings::for_depth(16)).moved, 0);

@@ -1,19 +1,22 @@
 //! Gathers the colours of a row, many cells at a time.
 //!
-//! Neighbouring cells mostly show neighbouring samples: then the colours that are mixed lie in four runs.
+//! Neighbouring cells mostly show neighbouring samples: then all colours that are mixed lie in two runs, one below the
+//! other. Each is split into its channels once, for both cells that a sample takes part in.
 
 use core::ops::Range;
 
 use super::RUN;
-use crate::fast::wide::run_length;
 use crate::format::Format;
-use crate::format::colour::{Channel, Colour, WEIGHTS};
+use crate::format::colour::WEIGHTS;
 use crate::source::row::{self, GatherRow, gather_cell};
 use crate::source::visibility::{EMPTY, PARTS, RESIDUAL_BITS, Visibility};
 use crate::source::{Source, layer_of};
 
 /// A cell in the parts in which residuals count.
-const CELL: u32 = 1 << PARTS;
+const SIDE: u16 = 1 << PARTS;
+
+/// Cells that are looked at at a time where those of a run do not show neighbours.
+const PART: usize = 8;
 
 /// Gathers the colours of the cells from `start` on that show a sample, see [`crate::source::row::gather_row`].
 pub(crate) fn gather_row<F: Format>(
@@ -23,172 +26,208 @@ pub(crate) fn gather_row<F: Format>(
     gather: &GatherRow,
     colours: &mut [u32],
 ) {
-    if !gather.sub_cell {
+    let Some(map) = layers.first().map(|layer| &layer.map).filter(|_| gather.sub_cell) else {
         return row::gather_row(layers, visibility, start, gather, colours);
-    }
-    let Some(format) = layers.first().map(|layer| *layer.map.record().colour_format()) else { return };
-    let mut run = Run { quads: [0; RUN], across: [0; RUN], down: [0; RUN], samples: [[0; RUN]; 4] };
-    for (cell, colours) in (start..).step_by(RUN).zip(colours.chunks_mut(RUN)) {
-        let (keys, words) = visibility.cells_from(cell, colours.len());
-        let alone = run.look(layers, keys, words);
-        run.mix(&format, colours);
-        let mut left = alone;
-        while left != 0 {
-            let lane = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let place = [start, cell - start + lane as u32];
-            if let (Some(to), Some(colour)) = (colours.get_mut(lane), gather_cell(layers, visibility, place, gather)) {
-                *to = colour;
+    };
+    let mut pass = Pass { layers, width: map.grid().width(), samples: [[[0; RUN + 1]; 3]; 2] };
+    for (x, colours) in (0..).step_by(RUN).zip(colours.chunks_mut(RUN)) {
+        let (keys, words) = visibility.cells_from(start + x, colours.len());
+        if pass.whole(keys, words, colours) {
+            continue;
+        }
+        let parts = colours.chunks_mut(PART).zip(keys.chunks(PART)).zip(words.chunks(PART));
+        for (x, ((colours, keys), words)) in (x..).step_by(PART).zip(parts) {
+            let mut alone = pass.in_runs(keys, words, colours);
+            while alone != 0 {
+                let lane = alone.trailing_zeros();
+                alone &= alone - 1;
+                let colour = gather_cell(layers, visibility, [start, x + lane], gather);
+                if let (Some(to), Some(colour)) = (colours.get_mut(lane as usize), colour) {
+                    *to = colour;
+                }
             }
         }
     }
 }
 
-/// A run of cells.
-struct Run {
-    /// The first sample of the quad in which each cell lies, and where in it, in parts of a cell.
-    quads: [u32; RUN],
-    across: [u32; RUN],
-    down: [u32; RUN],
-    /// The colours of the quads' samples: the first one, the ones right of it and below it, and the fourth.
-    samples: [[u32; RUN]; 4],
+/// Some cells, each within a quad of four samples.
+struct Cells<const N: usize> {
+    /// The first sample of the quad.
+    quads: [u32; N],
+    /// The low halves of the words, with the residuals.
+    residuals: [u16; N],
 }
 
-impl Run {
-    /// Finds the samples of a run. Returns a bit for each cell whose colour is not that of a quad; empty cells have
-    /// none.
+impl<const N: usize> Cells<N> {
+    /// Takes the words of their entries. `width` is that of the grid.
     #[inline(always)]
-    fn look<F: Format>(&mut self, layers: &[Source<'_, F>], keys: &[u16], words: &[u32]) -> u32 {
-        let Some(width) = layers.first().map(|layer| layer.map.grid().width()) else { return 0 };
-        let lanes = self.quads.iter_mut().zip(&mut self.across).zip(&mut self.down);
-        for (((quad, across), down), &word) in lanes.zip(words) {
-            let (u, v) = (word >> RESIDUAL_BITS, word);
+    fn new(words: &[u32; N], width: u32) -> Self {
+        let mut cells = Self { quads: [0; N], residuals: [0; N] };
+        for (quad, &word) in cells.quads.iter_mut().zip(words) {
             // A negative residual is that of the quad on the other side.
-            let negative = |part: u32| (part >> PARTS & 1).wrapping_neg();
-            *quad = (word >> (2 * RESIDUAL_BITS)).wrapping_sub(negative(u) & 1).wrapping_sub(negative(v) & width);
-            (*across, *down) = (u & (CELL - 1), v & (CELL - 1));
+            let negative = |bit: u32| (word >> bit & 1).wrapping_neg();
+            let right = (word >> (2 * RESIDUAL_BITS)).wrapping_add(negative(RESIDUAL_BITS + PARTS));
+            *quad = right.wrapping_sub(negative(PARTS) & width);
         }
-        let (mut apart, mut all) = (0, 0);
-        for lane in 0..RUN {
-            apart |= self.quads[lane].wrapping_sub(lane as u32) ^ self.quads[0];
+        for (residuals, &word) in cells.residuals.iter_mut().zip(words) {
+            *residuals = word as u16;
         }
-        if let Some(keys) = keys.first_chunk::<RUN>() {
-            all = keys.iter().fold(0, |any, &key| any | u16::from(key == EMPTY));
-        }
-        if apart == 0 && all == 0 && keys.len() == RUN {
-            let word = words.first().copied().unwrap_or_default();
-            return if self.read_all(layers, word) { 0 } else { u32::MAX };
-        }
-        self.look_at_each(layers, keys, words)
+        cells
     }
 
-    /// As [`Self::look`], for cells some of which are empty or do not lie in neighbouring quads.
+    /// Returns the weights of the four samples of each cell's quad.
+    #[inline(always)]
+    fn weights(&self) -> [[u16; N]; 4] {
+        let mut weights = [[0; N]; 4];
+        let [own, beside, under, corner] = &mut weights;
+        for lane in 0..N {
+            let part = |residual: u16| residual & (SIDE - 1);
+            let (x, y) = (part(self.residuals[lane] >> RESIDUAL_BITS), part(self.residuals[lane]));
+            corner[lane] = x * y;
+            own[lane] = SIDE * SIDE + corner[lane] - SIDE * (x + y);
+            beside[lane] = SIDE * x - corner[lane];
+            under[lane] = SIDE * y - corner[lane];
+        }
+        weights
+    }
+
+    /// Returns whether the cells lie in neighbouring quads.
+    #[inline(always)]
+    fn are_neighbours(&self) -> bool {
+        let mut apart = 0;
+        for lane in 0..N {
+            apart |= self.quads[lane].wrapping_sub(lane as u32) ^ self.quads[0];
+        }
+        apart == 0
+    }
+}
+
+/// A pass over the cells of a row.
+struct Pass<'r, 'p, F> {
+    layers: &'r [Source<'p, F>],
+    /// Columns of the grid.
+    width: u32,
+    /// Samples of two rows that lie one below the other, by row, channel and column.
+    samples: [[[u16; RUN + 1]; 3]; 2],
+}
+
+impl<F: Format> Pass<'_, '_, F> {
+    /// Gathers a run, if all cells show samples and lie in neighbouring quads; returns whether it did.
+    #[inline(always)]
+    fn whole(&mut self, keys: &[u16], words: &[u32], colours: &mut [u32]) -> bool {
+        let (Some(keys), Some(words), Some(colours)) =
+            (keys.first_chunk::<RUN>(), words.first_chunk::<RUN>(), colours.first_chunk_mut::<RUN>())
+        else {
+            return false;
+        };
+        let cells = Cells::new(words, self.width);
+        let empty = keys.iter().fold(0, |any, &key| any | u16::from(key == EMPTY));
+        empty == 0 && cells.are_neighbours() && self.mix(&cells, words[0], 0..RUN, colours)
+    }
+
+    /// Gathers a part of a run; returns a bit for each cell that must be gathered alone.
     #[inline(never)]
-    fn look_at_each<F: Format>(&mut self, layers: &[Source<'_, F>], keys: &[u16], words: &[u32]) -> u32 {
-        // All ones for cells that are empty, or beyond the end of the row.
-        let mut empty = [u32::MAX; RUN];
-        for (empty, &key) in empty.iter_mut().zip(keys) {
-            *empty = if key == EMPTY { u32::MAX } else { 0 };
-        }
-        // Not 0 for cells that are not of a run with the cell before: of empty ones, or of quads side by side.
-        let mut boundary = [0; RUN];
-        for lane in 1..RUN {
-            let apart = self.quads[lane].wrapping_sub(self.quads[lane - 1]).wrapping_sub(1);
-            let both_empty = empty[lane] & empty[lane - 1];
-            boundary[lane] = (apart & !both_empty | empty[lane] ^ empty[lane - 1]) as i32;
-        }
+    fn in_runs(&mut self, keys: &[u16], words: &[u32], colours: &mut [u32]) -> u32 {
+        let (Some(keys), Some(words), Some(colours)) =
+            (keys.first_chunk::<PART>(), words.first_chunk::<PART>(), colours.first_chunk_mut::<PART>())
+        else {
+            return u32::MAX >> (u32::BITS as usize - keys.len());
+        };
+        let cells = Cells::new(words, self.width);
         let (mut alone, mut lane) = (0, 0);
-        while lane < RUN {
-            let end = lane + 1 + run_length(boundary.get(lane + 1..).unwrap_or_default());
-            if empty[lane] == 0 {
-                let word = words.get(lane).copied().unwrap_or_default();
-                if !self.read(layers, word, self.quads[lane], lane..end) {
-                    alone |= u32::MAX >> (RUN - (end - lane)) << lane;
-                }
+        while lane < PART {
+            if keys[lane] == EMPTY {
+                lane += 1;
+                continue;
+            }
+            let next = |&end: &usize| cells.quads[end].wrapping_sub(cells.quads[end - 1]) == 1 && keys[end] != EMPTY;
+            let end = lane + 1 + (lane + 1..PART).take_while(next).count();
+            if !self.mix(&cells, words[lane], lane..end, colours) {
+                alone |= (1 << end) - (1 << lane);
             }
             lane = end;
         }
         alone
     }
 
-    /// Reads the samples of neighbouring quads in which all cells of the run lie; returns whether they are quads.
-    /// `word` is that of the first cell.
-    #[inline(always)]
-    fn read_all<F: Format>(&mut self, layers: &[Source<'_, F>], word: u32) -> bool {
-        let Some((layer, first, _)) = layer_of(layers, word >> (2 * RESIDUAL_BITS)) else { return false };
-        let (quad, width) = (self.quads[0].wrapping_sub(first), layer.map.grid().width());
-        if !layer.links().quads_inside(quad, RUN as u32) {
+    /// Gathers the cells of some lanes, which lie in neighbouring quads; returns whether these are quads. `word` is that
+    /// of the first lane.
+    #[inline(never)]
+    fn mix<const N: usize>(
+        &mut self,
+        cells: &Cells<N>,
+        word: u32,
+        lanes: Range<usize>,
+        colours: &mut [u32; N],
+    ) -> bool {
+        let Some((layer, first, _)) = layer_of(self.layers, word >> (2 * RESIDUAL_BITS)) else { return false };
+        let quad = cells.quads.get(lanes.start).copied().unwrap_or_default().wrapping_sub(first);
+        if !layer.links().quads_inside(quad, lanes.len() as u32) {
             return false;
         }
+        let quad = quad.wrapping_sub(lanes.start as u32);
+        if !self.read::<N>(layer, quad) {
+            return false;
+        }
+        let [own_weight, beside_weight, under_weight, corner_weight] = cells.weights();
+        let [upper, lower] = &self.samples;
+        let format = layer.map.record().colour_format();
+        let channels = if format.is_gray() { 1 } else { 3 };
+        let mut means = [[0u16; N]; 3];
+        for ((upper, lower), means) in upper.iter().zip(lower).zip(&mut means).take(channels) {
+            let (own, under) = (&upper[..N], &lower[..N]);
+            let (beside, corner) = (&upper[1..N + 1], &lower[1..N + 1]);
+            for lane in 0..N {
+                // A channel has at most 8 bits, so that the sum has 16.
+                let sum = (WEIGHTS as u16 >> 1)
+                    .wrapping_add(own[lane].wrapping_mul(own_weight[lane]))
+                    .wrapping_add(beside[lane].wrapping_mul(beside_weight[lane]))
+                    .wrapping_add(under[lane].wrapping_mul(under_weight[lane]))
+                    .wrapping_add(corner[lane].wrapping_mul(corner_weight[lane]));
+                means[lane] = sum >> WEIGHTS.trailing_zeros();
+            }
+        }
+        let mut mixed = [0; N];
+        let [first, second, third] = format.three_channels().map(|channel| channel.shift);
+        for lane in 0..N {
+            let [a, b, c] = [0, 1, 2].map(|channel: usize| u32::from(means[channel][lane]));
+            mixed[lane] = if channels == 1 { a << first } else { a << first | b << second | c << third };
+        }
+        match (lanes.len() == N, colours.get_mut(lanes.clone()), mixed.get(lanes)) {
+            (false, Some(colours), Some(mixed)) => {
+                for (to, &colour) in colours.iter_mut().zip(mixed) {
+                    *to = colour;
+                }
+            }
+            _ => *colours = mixed,
+        }
+        true
+    }
+
+    /// Reads the samples of `N` neighbouring quads; returns whether all lie in the map.
+    #[inline(always)]
+    fn read<const N: usize>(&mut self, layer: &Source<'_, F>, quad: u32) -> bool {
         let field = layer.map.record().colour();
         let ((upper, lower), extract) = (field.words(), field.extract());
-        for (samples, from) in self.samples.iter_mut().zip([quad, quad + 1, quad + width, quad + width + 1]) {
-            let plane = |word: usize| layer.map.planes()[word].get(from as usize..)?.first_chunk::<RUN>();
-            let (Some(upper), Some(lower)) = (plane(upper), plane(lower)) else { return false };
-            for lane in 0..RUN {
-                samples[lane] = extract.unsigned(upper[lane], lower[lane]);
+        let channels = layer.map.record().colour_format().three_channels();
+        for (samples, from) in self.samples.iter_mut().zip([quad, quad.wrapping_add(self.width)]) {
+            let plane = |word: usize| layer.map.planes()[word].get(from as usize..)?.split_first_chunk::<N>();
+            let (Some((upper, [upper_last, ..])), Some((lower, [lower_last, ..]))) = (plane(upper), plane(lower))
+            else {
+                return false;
+            };
+            let mut colours = [0; RUN + 1];
+            for lane in 0..N {
+                colours[lane] = extract.unsigned(upper[lane], lower[lane]);
+            }
+            colours[N] = extract.unsigned(*upper_last, *lower_last);
+            for (channel, samples) in channels.into_iter().zip(samples) {
+                for lane in 0..N {
+                    samples[lane] = channel.of(colours[lane]) as u16;
+                }
+                samples[N] = channel.of(colours[N]) as u16;
             }
         }
         true
-    }
-
-    /// Reads the samples of neighbouring quads; returns whether they are quads. `word` is that of the first cell.
-    #[inline(always)]
-    fn read<F: Format>(&mut self, layers: &[Source<'_, F>], word: u32, quad: u32, lanes: Range<usize>) -> bool {
-        let Some((layer, first, _)) = layer_of(layers, word >> (2 * RESIDUAL_BITS)) else { return false };
-        let (quad, count, width) = (quad.wrapping_sub(first), lanes.len() as u32, layer.map.grid().width());
-        if !layer.links().quads_inside(quad, count) {
-            return false;
-        }
-        for (samples, from) in self.samples.iter_mut().zip([quad, quad + 1, quad + width, quad + width + 1]) {
-            let colours = layer.map.colours(from as usize..(from + count) as usize);
-            for (to, colour) in samples.get_mut(lanes.clone()).unwrap_or_default().iter_mut().zip(colours) {
-                *to = colour;
-            }
-        }
-        true
-    }
-
-    /// Mixes the samples of all cells.
-    #[inline(always)]
-    fn mix(&self, format: &Colour, colours: &mut [u32]) {
-        let [first, second, third] = format.three_channels();
-        let mut weights = [[0u16; RUN]; 4];
-        let [own_weight, beside_weight, under_weight, corner_weight] = &mut weights;
-        for lane in 0..RUN {
-            let (x, y) = ((self.across[lane] & (CELL - 1)) as u16, (self.down[lane] & (CELL - 1)) as u16);
-            let cell = CELL as u16;
-            own_weight[lane] = (cell - x) * (cell - y);
-            beside_weight[lane] = x * (cell - y);
-            under_weight[lane] = (cell - x) * y;
-            corner_weight[lane] = x * y;
-        }
-        let mut mixed = [0; RUN];
-        add_channel(second, &self.samples, &weights, &mut mixed);
-        if !format.is_gray() {
-            add_channel(first, &self.samples, &weights, &mut mixed);
-            add_channel(third, &self.samples, &weights, &mut mixed);
-        }
-        for (to, &colour) in colours.iter_mut().zip(&mixed) {
-            *to = colour;
-        }
-    }
-}
-
-/// Adds the mean of a channel of four colours, by weights.
-#[inline(always)]
-fn add_channel(channel: Channel, samples: &[[u32; RUN]; 4], weights: &[[u16; RUN]; 4], mixed: &mut [u32; RUN]) {
-    const LOG: u32 = WEIGHTS.trailing_zeros();
-    let [own, beside, under, corner] = samples;
-    let [own_weight, beside_weight, under_weight, corner_weight] = weights;
-    // A channel has at most 8 bits, so that its sum has 16.
-    let of = |colour: u32| channel.of(colour) as u16;
-    for lane in 0..RUN {
-        let sum = (WEIGHTS as u16 >> 1)
-            .wrapping_add(of(own[lane]).wrapping_mul(own_weight[lane]))
-            .wrapping_add(of(beside[lane]).wrapping_mul(beside_weight[lane]))
-            .wrapping_add(of(under[lane]).wrapping_mul(under_weight[lane]))
-            .wrapping_add(of(corner[lane]).wrapping_mul(corner_weight[lane]));
-        mixed[lane] |= u32::from(sum >> LOG) << channel.shift;
     }
 }

@@ -30,6 +30,8 @@ struct Shown {
     displacements: [u32; CHUNK],
     /// Fields of the chunk, one after the other.
     field: [i32; CHUNK],
+    /// Places in x or in y in [`CORNER_PARTS`] parts of a cell, modulo 2^16.
+    places: [u16; CHUNK],
     keys: [u16; CHUNK],
     words: [u32; CHUNK],
     /// Not 0 for lanes that are not of a run with the lane before.
@@ -77,6 +79,7 @@ pub(crate) fn scatter<F: Format>(
         there: [0; CHUNK],
         displacements: [0; CHUNK],
         field: [0; CHUNK],
+        places: [0; CHUNK],
         keys: [0; CHUNK],
         words: [0; CHUNK],
         boundary: [0; CHUNK],
@@ -257,11 +260,20 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         let record = format.record();
         let depth_bits = u32::from(record.depth().bits);
         let deepest = (1 << depth_bits) - 1;
-        let behind = self.behind;
+        let behind = self.behind as u16;
         for lane in 0..CHUNK {
-            let depth = (depth(chunk.keys[lane] & deepest, depth_bits) + behind) as i32;
-            let key = ((depth.min(FARTHEST as i32) as u32) << 1) | Kind::Point as u32;
-            shown.keys[lane] = (key | if MIXED { !shown.there[lane] } else { 0 }) as u16;
+            shown.keys[lane] = depth(chunk.keys[lane] & deepest, depth_bits) as u16;
+        }
+        for key in &mut shown.keys {
+            // Neither the sum nor twice the smaller one has more than 16 bits.
+            let depth = *key + behind;
+            let depth = depth - depth.saturating_sub(FARTHEST as u16);
+            *key = depth << 1 | Kind::Point as u16;
+        }
+        if MIXED {
+            for (key, there) in shown.keys.iter_mut().zip(&shown.there) {
+                *key |= !there as u16;
+            }
         }
         let number = self.first + chunk.source;
         let width = self.grid.width() as usize;
@@ -280,12 +292,12 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                     shown.words[lane] | residual
                 };
                 let cells = displacement(shown.displacements[lane])[component];
-                shown.field[lane] = (cells << CORNER_PARTS) + parts::<CORNER_PARTS>(offset, frac);
+                shown.places[lane] = ((cells << CORNER_PARTS) + parts::<CORNER_PARTS>(offset, frac)) as u16;
             }
             let at = half + component * width + x;
             let places = line.get_mut(at..at + chunk.cells).unwrap_or_default();
-            for (to, &place) in places.iter_mut().zip(&shown.field) {
-                *to = place as u32;
+            for (to, &place) in places.iter_mut().zip(&shown.places) {
+                *to = place;
             }
         }
     }
@@ -369,6 +381,8 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
     fn quads(&mut self, y: usize) {
         /// Quads that are looked at at a time.
         const RUN: usize = 32;
+        const CELL: u16 = 1 << CORNER_PARTS;
+        const LONGEST: u16 = STRETCHED as u16;
         let width = self.grid.width() as usize;
         let Some(start) = self.grid.row(y as i32) else { return };
         let mut x = 0;
@@ -379,21 +393,20 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 let at = (y & 1) * 2 * width + component * width + x;
                 line.get(at..at + run).unwrap_or_default()
             };
-            let mut flags = [0u8; RUN];
-            let mut any = 0;
+            let mut flags = [0; RUN];
             for component in 0..2 {
-                let cell = [(1 - component as i32) << CORNER_PARTS, (component as i32) << CORNER_PARTS];
                 let lanes =
                     places(y, component, x).iter().zip(places(y, component, x + 1)).zip(places(y + 1, component, x));
+                // How much a side may differ from that of a quad of one cell. A side that is longer by a multiple of
+                // 2^16 parts is not flagged: such a quad is too large to be drawn.
+                let [across, down] = if component == 0 { [CELL, 0] } else { [0, CELL] };
                 for (((&own, &right), &below), flag) in lanes.zip(&mut flags) {
-                    let across = (right.wrapping_sub(own) as i32).wrapping_add(cell[0]);
-                    let down = (below.wrapping_sub(own) as i32).wrapping_add(cell[1]);
-                    // Where there was no sample the line may hold any number.
-                    let stretched = across.wrapping_abs().max(down.wrapping_abs()) > STRETCHED;
-                    *flag |= u8::from(stretched);
-                    any |= u8::from(stretched);
+                    let beyond = |side: u16| side.wrapping_add(LONGEST).saturating_sub(2 * LONGEST);
+                    *flag |= beyond(right.wrapping_sub(own).wrapping_add(across));
+                    *flag |= beyond(below.wrapping_sub(own).wrapping_add(down));
                 }
             }
+            let any = flags.iter().fold(0, |any, flag| any | flag);
             if any != 0 {
                 for (lane, _) in flags.iter().enumerate().take(run).filter(|(_, flag)| **flag != 0) {
                     let cell = start + (x + lane) as u32;
