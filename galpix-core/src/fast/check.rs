@@ -156,6 +156,16 @@ pub(crate) fn fill_bullets<F: Format>(back: &Galpixmap<'_, F>, scratch: &mut Scr
     );
 }
 
+/// Compares the links of the samples of a map, which were made with `edge_threshold`, with those of the reference.
+pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &[u32]) {
+    if !due(map.grid().cells()) {
+        return;
+    }
+    let mut expected = links.to_vec();
+    source::links::link(map, edge_threshold, &mut expected);
+    assert_eq!(links, expected, "the fast form of links");
+}
+
 /// A form of [`super::scatter`].
 type Scatter<F> = fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally;
 

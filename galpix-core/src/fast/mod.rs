@@ -86,6 +86,17 @@ pub(crate) fn fill_bullets<F: Format>(
     fill::fill_bullets(back, scratch, reach, tally);
 }
 
+/// Links the samples of a map, see [`source::links::link`].
+fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
+    if VECTORS {
+        wide::source::links::link(map, edge_threshold, links);
+    } else {
+        source::links::link(map, edge_threshold, links);
+    }
+    #[cfg(feature = "check")]
+    check::link(map, edge_threshold, links);
+}
+
 /// Steps and shows the samples of a layer, see [`source::scatter`].
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
@@ -210,7 +221,7 @@ passes! {
         layers::make::<Self, true>;
     fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
     fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
-    fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = source::links::link;
+    fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = link;
     fn sources_draw(
         layers: &mut [Source<'_, Self>],
         visibility: &mut Visibility<'_>,

@@ -8,20 +8,20 @@
 //! *Memory:* four bits a sample. *Cost:* once for each update.
 
 use crate::format::Format;
-use crate::format::record::Field;
+use crate::format::record::{Field, Record};
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 
 /// Samples of a word.
-const WORD: u32 = 8;
+pub(crate) const WORD: u32 = 8;
 
 /// Two samples are linked.
-const LINKED: u32 = 0b11;
+pub(crate) const LINKED: u32 = 0b11;
 /// The first of two samples, which is the left or the upper one, is nearer.
-const FIRST: u32 = 0b01;
+pub(crate) const FIRST: u32 = 0b01;
 /// The second of two samples is nearer.
-const SECOND: u32 = 0b10;
+pub(crate) const SECOND: u32 = 0b10;
 
 /// Returns the words of the links of a grid.
 #[must_use]
@@ -192,24 +192,29 @@ impl Links<'_> {
 }
 
 /// A value that must not step between linked samples.
-struct Value {
-    field: Field,
-    signed: bool,
+pub(crate) struct Value {
+    pub field: Field,
+    pub signed: bool,
     /// The largest difference that is no step.
-    threshold: u32,
+    pub threshold: u32,
 }
 
-/// Links the samples of a map. `edge_threshold` is in units of the depth's last bit; velocities step by more than a
-/// quarter of a cell a frame.
-pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
-    links.fill(0);
-    let record = map.record();
+/// Returns the values that must not step: depth, of whose last bit `edge_threshold` is a number, and velocities, which
+/// step by more than a quarter of a cell a frame.
+#[inline(always)]
+pub(crate) fn values(record: &Record, edge_threshold: u32) -> [Value; 3] {
     let quarter = |component: usize| 1 << record.scales[component].velocity_frac >> 2;
-    let values = [
+    [
         Value { field: record.depth(), signed: false, threshold: edge_threshold },
         Value { field: record.velocity(0), signed: true, threshold: quarter(0) },
         Value { field: record.velocity(1), signed: true, threshold: quarter(1) },
-    ];
+    ]
+}
+
+/// The reference of [`crate::fast::link`]: links the samples of a map.
+pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
+    links.fill(0);
+    let values = values(map.record(), edge_threshold);
     let (grid, width) = (*map.grid(), map.grid().width());
     for (y, &start) in (0..).zip(grid.starts()) {
         for x in 0..width {

@@ -3,6 +3,7 @@
 pub(crate) mod cracks;
 pub(crate) mod finish;
 pub(crate) mod gather;
+pub(crate) mod links;
 pub(crate) mod scatter;
 
 /// Cells that are looked at at a time.
