@@ -162,7 +162,7 @@ pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links
         return;
     }
     let mut expected = links.to_vec();
-    source::links::link(map, edge_threshold, &mut expected);
+    source::reference::link(map, edge_threshold, &mut expected);
     assert_eq!(links, expected, "the fast form of links");
 }
 
@@ -205,14 +205,14 @@ pub(crate) fn scatter<F: Format>(
             (memory, displacements, links, tally)
         })
     };
-    let expected = made(source::scatter);
+    let expected = made(source::reference::scatter);
     assert_eq!(made(wide::source::scatter::scatter), expected, "the fast form of the steps and entries of samples");
 }
 
 /// Compares what both forms show where cracks are closed.
 pub(crate) fn close_cracks<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) {
     let Some(map) = sources.first().map(Source::map).filter(|map| due(map.grid().cells())) else { return };
-    let expected = on_copied_visibility(map, visibility, |copy| source::cracks::close(sources, copy, threshold));
+    let expected = on_copied_visibility(map, visibility, |copy| source::reference::close(sources, copy, threshold));
     let made = on_copied_visibility(map, visibility, |copy| wide::source::cracks::close(sources, copy, threshold));
     assert_eq!(made, expected, "the fast form of closing cracks");
 }
@@ -244,7 +244,7 @@ pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finis
         return;
     }
     let (mut expected, mut made) = (colours.to_vec(), colours.to_vec());
-    row::finish_row(sources, finish, &mut expected);
+    source::reference::finish_row(sources, finish, &mut expected);
     wide::source::finish::finish(sources, finish, &mut made);
     assert_eq!(made, expected, "the fast form of a finished row");
 }

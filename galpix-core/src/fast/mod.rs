@@ -86,18 +86,14 @@ pub(crate) fn fill_bullets<F: Format>(
     fill::fill_bullets(back, scratch, reach, tally);
 }
 
-/// Links the samples of a map, see [`source::links::link`].
+/// Links the samples of a map, see [`source::links`].
 fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
-    if VECTORS {
-        wide::source::links::link(map, edge_threshold, links);
-    } else {
-        source::links::link(map, edge_threshold, links);
-    }
+    wide::source::links::link(map, edge_threshold, links);
     #[cfg(feature = "check")]
     check::link(map, edge_threshold, links);
 }
 
-/// Steps and shows the samples of a layer, see [`source::scatter`].
+/// Steps and shows the samples of a layer, see [`source::draw`].
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
@@ -107,14 +103,10 @@ pub(crate) fn scatter<F: Format>(
 ) -> Tally {
     #[cfg(feature = "check")]
     check::scatter(source, visibility, first, edge_threshold, step);
-    if VECTORS {
-        wide::source::scatter::scatter(source, visibility, first, edge_threshold, step)
-    } else {
-        source::scatter(source, visibility, first, edge_threshold, step)
-    }
+    wide::source::scatter::scatter(source, visibility, first, edge_threshold, step)
 }
 
-/// Closes cracks, see [`source::cracks::close`].
+/// Closes cracks, see [`source::cracks`].
 pub(crate) fn close_cracks<F: Format>(
     sources: &[Source<'_, F>],
     visibility: &mut Visibility<'_>,
@@ -122,11 +114,7 @@ pub(crate) fn close_cracks<F: Format>(
 ) -> Closed {
     #[cfg(feature = "check")]
     check::close_cracks(sources, visibility, threshold);
-    if VECTORS {
-        wide::source::cracks::close(sources, visibility, threshold)
-    } else {
-        source::cracks::close(sources, visibility, threshold)
-    }
+    wide::source::cracks::close(sources, visibility, threshold)
 }
 
 /// Gathers the colours of the cells of a row that show a sample, see [`row::gather_row`].
@@ -139,22 +127,14 @@ pub(crate) fn gather_row<F: Format>(
 ) {
     #[cfg(feature = "check")]
     check::gather_row(layers, visibility, start, gather, colours);
-    if VECTORS {
-        wide::source::gather::gather_row(layers, visibility, start, gather, colours);
-    } else {
-        row::gather_row(layers, visibility, start, gather, colours);
-    }
+    wide::source::gather::gather_row(layers, visibility, start, gather, colours);
 }
 
-/// Finishes a row, see [`row::finish_row`].
+/// Finishes a row, see [`Sources::finish`].
 pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &mut [u32]) {
     #[cfg(feature = "check")]
     check::finish_row(sources, finish, colours);
-    if VECTORS {
-        wide::source::finish::finish(sources, finish, colours);
-    } else {
-        row::finish_row(sources, finish, colours);
-    }
+    wide::source::finish::finish(sources, finish, colours);
 }
 
 /// Makes the next frame of a map in place, see [`Rolling::step`].

@@ -29,36 +29,6 @@ pub(crate) struct Closed {
     pub empty: u32,
 }
 
-/// Closes cracks. `threshold` is the edge threshold for depths of an entry.
-pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
-    let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
-    let width = grid.width();
-    let mut closed = Closed::default();
-    // Row before: what takes the place of its entries is shown when it has served as a neighbour.
-    let mut before = None;
-    for (y, &start) in grid.starts().iter().enumerate() {
-        let mut count = 0;
-        for x in 0..width {
-            let own = visibility.at(start + x);
-            let best = best(sources, visibility, [x as i32, y as i32], threshold);
-            closed.points += u32::from(own.is_point());
-            closed.holes += u32::from(!own.is_some() && best.is_some());
-            closed.empty += u32::from(!own.is_some() && best.is_none());
-            if let Some(entry) = best {
-                visibility.postpone(y, count, x, entry);
-                count += 1;
-            }
-        }
-        if let Some((y, start, count)) = before.replace((y, start, count)) {
-            visibility.settle(y, start, count);
-        }
-    }
-    if let Some((y, start, count)) = before {
-        visibility.settle(y, start, count);
-    }
-    closed
-}
-
 /// Returns what closes a cell; `None` if nothing does.
 #[inline(always)]
 pub(crate) fn best<F: Format>(

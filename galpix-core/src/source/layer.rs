@@ -1,12 +1,11 @@
 //! One layer: samples that stay in the cells where an update put them.
 
 use super::links::{self, Links};
-use super::visibility::PARTS;
 use crate::error::SetupError;
 use crate::format::Format;
 use crate::format::record::Field;
 use crate::frame::step::parts;
-use crate::layers::{Displacement, displacement};
+use crate::layers::{Displacement, displacement, displacement_word};
 use crate::map::Galpixmap;
 
 /// The base-2 logarithm of the parts of a cell in which the places of a quad's corners count.
@@ -92,8 +91,10 @@ impl<'p, F: Format> Source<'p, F> {
     }
 }
 
-/// Returns the residual of the cell that is nearest to a sample with these offsets, in sixteenths of a cell.
+/// Returns the word of a displacement, and how many of its two numbers were clamped.
 #[inline(always)]
-pub(crate) const fn residual(offset: [i32; 2], frac: [u32; 2]) -> [i32; 2] {
-    [-parts::<PARTS>(offset[0], frac[0]), -parts::<PARTS>(offset[1], frac[1])]
+pub(crate) fn moved([dx, dy]: Displacement) -> (u32, u32) {
+    let word = displacement_word([dx, dy]);
+    let [x, y] = displacement(word);
+    (word, u32::from(x != dx) + u32::from(y != dy))
 }

@@ -7,10 +7,7 @@
 //!
 //! *Memory:* four bits a sample. *Cost:* once for each update.
 
-use crate::format::Format;
 use crate::format::record::{Field, Record};
-use crate::map::Galpixmap;
-use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 
 /// Samples of a word.
@@ -209,48 +206,4 @@ pub(crate) fn values(record: &Record, edge_threshold: u32) -> [Value; 3] {
         Value { field: record.velocity(0), signed: true, threshold: quarter(0) },
         Value { field: record.velocity(1), signed: true, threshold: quarter(1) },
     ]
-}
-
-/// The reference of [`crate::fast::link`]: links the samples of a map.
-pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
-    links.fill(0);
-    let values = values(map.record(), edge_threshold);
-    let (grid, width) = (*map.grid(), map.grid().width());
-    for (y, &start) in (0..).zip(grid.starts()) {
-        for x in 0..width {
-            let cell = start + x;
-            let column = |x: u32| (x < width).then(|| start + x);
-            let along = [x.checked_sub(1).and_then(column), Some(cell), column(x + 1), column(x + 2)];
-            let row = |y: i32| grid.row(y).map(|row| row + x);
-            let down = [row(y - 1), Some(cell), row(y + 1), row(y + 2)];
-            let bits = pair(map, &values, along) | pair(map, &values, down) << 2;
-            if let Some(word) = links.get_mut((cell / WORD) as usize) {
-                *word |= bits << ((cell % WORD) << 2);
-            }
-        }
-    }
-}
-
-/// Returns the two bits of a pair of neighbours, which are the second and the third of four cells in a row or column.
-fn pair<F: Format>(map: &Galpixmap<'_, F>, values: &[Value; 3], cells: [Option<u32>; 4]) -> u32 {
-    let galpixels = cells.map(|cell| cell.filter(|&cell| map.class(cell) == Class::Galpixel));
-    let [before, Some(first), Some(second), after] = galpixels else { return 0 };
-    let read = |value: &Value, cell: u32| {
-        if value.signed { map.signed(value.field, cell) } else { map.unsigned(value.field, cell) as i32 }
-    };
-    let steps = values.iter().any(|value| {
-        let (a, b) = (read(value, first), read(value, second));
-        let slope = b - a;
-        let bend = |beside: Option<i32>| beside.map_or(u32::MAX, |beside| slope.abs_diff(beside));
-        let before = bend(before.map(|cell| a - read(value, cell)));
-        let after = bend(after.map(|cell| read(value, cell) - b));
-        slope.unsigned_abs().min(before).min(after) > value.threshold
-    });
-    let [a, b] = [first, second].map(|cell| map.unsigned(map.record().depth(), cell));
-    match (steps, a.cmp(&b)) {
-        (false, _) => LINKED,
-        (true, core::cmp::Ordering::Less) => FIRST,
-        (true, core::cmp::Ordering::Greater) => SECOND,
-        (true, core::cmp::Ordering::Equal) => 0,
-    }
 }

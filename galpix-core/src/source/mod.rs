@@ -63,8 +63,9 @@ pub(crate) mod gather;
 pub(crate) mod layer;
 pub(crate) mod links;
 pub(crate) mod quads;
+#[cfg(any(test, feature = "check"))]
+pub(crate) mod reference;
 pub(crate) mod row;
-pub(crate) mod scatter;
 pub(crate) mod visibility;
 
 #[cfg(test)]
@@ -207,19 +208,6 @@ pub(crate) fn draw<F: Format>(
         empty: closed.empty,
         ..tally
     }
-}
-
-/// The reference of [`fast::scatter`]: steps and shows all samples, then the stretched quads.
-pub(crate) fn scatter<F: Format>(
-    source: &mut Source<'_, F>,
-    visibility: &mut Visibility<'_>,
-    first: u32,
-    edge_threshold: u32,
-    step: Option<(Rounding, u32)>,
-) -> Tally {
-    let tally = scatter::scatter(source, visibility, first, edge_threshold, step);
-    quads::draw(source, visibility, first);
-    tally
 }
 
 /// Returns the layer of a sample, the number of its first sample, and its own number.

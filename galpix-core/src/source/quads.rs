@@ -54,21 +54,6 @@ fn reciprocal(number: i32) -> i32 {
     i32::from(RECIPROCALS[mantissa as usize & 63]) >> down << up
 }
 
-/// Shows the stretched quads of a layer; returns how many were drawn.
-pub(crate) fn draw<F: Format>(source: &Source<'_, F>, visibility: &mut Visibility<'_>, first: u32) -> u32 {
-    let grid = *source.map.grid();
-    let links = source.links();
-    let mut drawn = 0;
-    for (y, &start) in (0..).zip(grid.starts()) {
-        for (x, cell) in (0..grid.width() as i32).zip(start..) {
-            if links.quad(cell) {
-                drawn += u32::from(draw_one(source, visibility, first, [x, y], cell));
-            }
-        }
-    }
-    drawn
-}
-
 /// Shows a quad, if it is stretched; returns whether it was.
 pub(crate) fn draw_one<F: Format>(
     source: &Source<'_, F>,

@@ -177,13 +177,6 @@ pub(crate) fn finish<F: Format>(
     fast::finish_row(sources, &Finish { grid: *map.grid(), y, threshold, gathered }, colours);
 }
 
-/// The reference of [`fast::finish_row`].
-pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &mut [u32]) {
-    for (to, x) in colours.iter_mut().zip(0..finish.grid.width()) {
-        *to = finish_cell(sources, finish, x);
-    }
-}
-
 /// Returns the colour of a cell after [`Sources::finish`].
 #[inline(always)]
 pub(crate) fn finish_cell<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, x: u32) -> u32 {

@@ -76,7 +76,7 @@ impl Entry {
     }
 
     /// Returns whether there is a sample that is seen in the cell nearest to it.
-    #[inline(always)]
+    #[cfg(any(test, feature = "check"))]
     pub(crate) const fn is_point(self) -> bool {
         self.is_some() && self.key & Kind::Point as u16 != 0
     }

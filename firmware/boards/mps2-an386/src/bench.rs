@@ -3,6 +3,7 @@
 use galpix_core::{Grid, Scratch};
 
 use crate::clock::Clock;
+use crate::sources;
 
 /// A clock, and memory for the largest layout.
 pub struct Bench {
@@ -22,6 +23,8 @@ pub struct Bench {
     pub swept: [&'static mut [u32]; 2],
     /// Memory for push-pull.
     pub push_pull: &'static mut [u32],
+    /// Memory for sources.
+    pub sources: sources::Memory,
     /// Row starts of a window.
     pub window_rows: &'static mut [u32],
 }

@@ -20,6 +20,7 @@ mod machine;
 mod pictures;
 mod plain;
 mod report;
+mod sources;
 mod stages;
 
 use core::hint::black_box;
@@ -59,10 +60,13 @@ fn main() -> ! {
         process::exit(2)
     });
     print_head();
+    let grid = Grid::new(WIDTH, HEIGHT, Margin::NONE, ROWS).expect("a size that can be laid out");
+    let sources = sources::Memory::new(&mut psram, &grid).expect("memory enough");
     let mut lend = |words: usize| psram.lend(words, 0).expect("memory enough");
     let mut bench = Bench {
         clock,
-        grid: Grid::new(WIDTH, HEIGHT, Margin::NONE, ROWS).expect("a size that can be laid out"),
+        grid,
+        sources,
         band: Grid::new(WIDTH, BAND, Margin::NONE, lend(BAND as usize)).expect("a size that can be laid out"),
         painted: lend(CELLS * MOST_WORDS),
         swept: [lend(CELLS * MOST_WORDS), lend(CELLS)],

@@ -36,6 +36,7 @@ impl Bench {
             let mut map = Galpixmap::new(self.grid, Static::<P>::new(), self.painted).expect("memory enough");
             picture.paint(&mut map);
             self.skipping::<P>(layout, picture, words);
+            self.sources::<P>(layout, picture);
         }
         self.torn::<P>(layout, words);
         for picture in Picture::ALL.into_iter().chain(Picture::EXTREMES) {

@@ -4,9 +4,9 @@ use super::*;
 use crate::fast;
 use crate::format::rounding::Rounding;
 use crate::frame::tally::Tally;
-use crate::source::cracks::{self, Closed};
+use crate::source::cracks::Closed;
+use crate::source::reference;
 use crate::source::row::{self, Finish, GatherRow};
-use crate::source::scatter;
 use crate::source::visibility::{Entry, threshold};
 
 type Scatter<F> = fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally;
@@ -27,7 +27,12 @@ impl<F: Format> Forms<F> {
     }
 
     fn reference() -> Self {
-        Self { scatter, close: cracks::close, gather: row::gather_row, finish: row::finish_row }
+        Self {
+            scatter: reference::scatter,
+            close: reference::close,
+            gather: row::gather_row,
+            finish: reference::finish_row,
+        }
     }
 }
 
@@ -297,7 +302,7 @@ fn compare_links(sources: &mut Sources<'_, '_, Dynamic>, edge_threshold: u32, in
         sources.visibility.clear();
         let mut first = 0;
         for layer in sources.layers.iter_mut() {
-            scatter(layer, &mut sources.visibility, first, edge_threshold, None);
+            reference::scatter(layer, &mut sources.visibility, first, edge_threshold, None);
             first += layer.map.grid().cells();
         }
         let counts = (forms.close)(sources.layers, &mut sources.visibility, threshold);

@@ -4,9 +4,9 @@ use super::*;
 use crate::fast;
 use crate::frame::Settings;
 use crate::frame::step::parts;
-use crate::source::cracks::{self, Closed};
-use crate::source::layer::residual;
+use crate::source::cracks::Closed;
 use crate::source::links::Links;
+use crate::source::reference::{self, residual};
 use crate::source::visibility::{EMPTY, Entry, FARTHEST, Kind, MOST_SAMPLES};
 
 /// A number of 2^`frac` parts of a cell in `count` parts, halves upwards.
@@ -160,7 +160,7 @@ fn compare(sources: &mut Sources<'_, '_, Dynamic>, entries: &[Entry], threshold:
     let sides = [grid.width() as i32, grid.height() as i32];
     let layers = sources.layers.iter().map(Source::links).collect();
     let expected = Cracks { sides, entries, layers, threshold }.close();
-    for close in [cracks::close, fast::close_cracks] {
+    for close in [reference::close, fast::close_cracks] {
         let visibility = &mut sources.visibility;
         visibility.clear();
         for (cell, &entry) in (0..).zip(entries) {

@@ -3,9 +3,9 @@
 use super::*;
 use crate::fast;
 use crate::layers::displacement;
-use crate::source::layer::residual;
+use crate::source::quads;
+use crate::source::reference::{self, residual};
 use crate::source::visibility::{Entry, Kind, depth, threshold};
-use crate::source::{quads, scatter};
 
 /// The points of a layer, each with its cell.
 fn points<F: Format>(source: &Source<'_, F>, first: u32, edge_threshold: u32) -> Vec<(u32, Entry)> {
@@ -67,7 +67,7 @@ fn compare(random: &mut Random, sources: &mut Sources<'_, '_, Dynamic>, edge_thr
     let entries =
         |visibility: &Visibility<'_>| (0..visibility.cells()).map(|cell| visibility.at(cell)).collect::<Vec<_>>();
     let mut made = Vec::new();
-    for form in [scatter, fast::scatter] {
+    for form in [reference::scatter, fast::scatter] {
         visibility.clear();
         for (layer, &first) in layers.iter_mut().zip(&firsts) {
             form(layer, visibility, first, edge_threshold, None);

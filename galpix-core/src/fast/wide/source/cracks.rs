@@ -7,7 +7,7 @@ use crate::source::Source;
 use crate::source::cracks::{Closed, best};
 use crate::source::visibility::{EMPTY, Kind, Visibility};
 
-/// Closes cracks, see [`crate::source::cracks::close`].
+/// Closes cracks, see [`crate::source::cracks`].
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
     let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
     let (width, mut closed, mut before) = (grid.width() as usize, Closed::default(), None);

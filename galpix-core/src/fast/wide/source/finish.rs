@@ -5,7 +5,7 @@ use crate::format::Format;
 use crate::source::Sources;
 use crate::source::row::{Finish, finish_cell};
 
-/// Finishes a row, see [`crate::source::row::finish_row`].
+/// Finishes a row, see [`Sources::finish`].
 pub(crate) fn finish<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_>, colours: &mut [u32]) {
     let width = finish.grid.width() as usize;
     let row = |y: i32| {

@@ -37,12 +37,9 @@ pub(crate) fn gather_row<F: Format>(
         }
         let parts = colours.chunks_mut(PART).zip(keys.chunks(PART)).zip(words.chunks(PART));
         for (x, ((colours, keys), words)) in (x..).step_by(PART).zip(parts) {
-            let mut alone = pass.in_runs(keys, words, colours);
-            while alone != 0 {
-                let lane = alone.trailing_zeros();
-                alone &= alone - 1;
-                let colour = gather_cell(layers, visibility, [start, x + lane], gather);
-                if let (Some(to), Some(colour)) = (colours.get_mut(lane as usize), colour) {
+            let alone = pass.in_runs(keys, words, colours);
+            for (lane, to) in (0..).zip(colours).filter(|(lane, _)| alone >> lane & 1 != 0) {
+                if let Some(colour) = gather_cell(layers, visibility, [start, x + lane], gather) {
                     *to = colour;
                 }
             }

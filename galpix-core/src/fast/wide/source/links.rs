@@ -10,7 +10,7 @@ use crate::source::links::{FIRST, LINKED, SECOND, Value, WORD, values};
 /// Samples of a run and its neighbours: one before it and two after it.
 const AROUND: usize = RUN + 3;
 
-/// Links the samples of a map, see [`crate::source::links::link`].
+/// Links the samples of a map, see [`crate::source::links`].
 pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links: &mut [u32]) {
     links.fill(0);
     let (grid, values) = (*map.grid(), values(map.record(), edge_threshold));
@@ -101,7 +101,7 @@ fn read_field<F: Format, T>(
 }
 
 /// Sets the two bits of each pair of a run, of which the samples are the second and the third of four in a row or
-/// column, see [`crate::source::links::pair`].
+/// column, see [`crate::source::links`].
 #[inline(always)]
 fn pair<'s>(values: &[Value; 3], run: impl Fn(usize) -> Run<'s>, bits: &mut [u32; RUN]) {
     let [before, first, second, after] = [0, 1, 2, 3].map(run);

@@ -17,9 +17,8 @@ use crate::frame::tally::Tally;
 use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
-use crate::source::layer::CORNER_PARTS;
+use crate::source::layer::{CORNER_PARTS, moved};
 use crate::source::quads::{self, STRETCHED};
-use crate::source::scatter::moved;
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
 
 /// What a chunk shows. The memory is reused for all chunks.
@@ -52,7 +51,7 @@ struct Pass<'s, 'p, 'v, 'w, F> {
     tally: Tally,
 }
 
-/// Steps and shows the samples of a layer, see [`crate::source::scatter`].
+/// Steps and shows the samples of a layer, see [`crate::source::draw`].
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
