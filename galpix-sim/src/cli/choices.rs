@@ -72,10 +72,9 @@ impl From<FillChoice> for Fill {
 }
 
 /// How galpixels move.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum SchemeChoice {
     /// From map to map: the paper's galpixmap
-    #[default]
     Map,
     /// They stay where the update put them, and each frame finds out where they are seen
     Source,
@@ -191,7 +190,7 @@ pub struct Extrapolation {
     /// Frames to extrapolate [default: what the source is meant for]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: Option<u32>,
-    /// What is put into holes [default: extend for map, push-pull for source]
+    /// What is put into holes [default: push-pull for source, extend for map]
     #[arg(long, value_enum, value_name = "MODE")]
     pub fill: Option<FillChoice>,
     #[command(flatten)]
@@ -214,10 +213,10 @@ pub struct Extrapolation {
     /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
     #[arg(long, value_name = "PART", value_parser = part)]
     pub edge_threshold: Option<f64>,
-    /// How galpixels move
-    #[arg(long, value_enum, value_name = "SCHEME", default_value_t)]
-    pub scheme: SchemeChoice,
-    /// How cells become pixels [default: nearest for map, sub-cell for source]
+    /// How galpixels move [default: source; map where --fill or --reach ask for what only the map has]
+    #[arg(long, value_enum, value_name = "SCHEME")]
+    pub scheme: Option<SchemeChoice>,
+    /// How cells become pixels [default: sub-cell for source, nearest for map]
     #[arg(long, value_enum, value_name = "MODE")]
     pub scan_out: Option<ScanOutChoice>,
     /// What is done with the accelerations of a capture
@@ -238,8 +237,11 @@ impl Extrapolation {
     ///
     /// *Errors:* what stationary sources do not have.
     pub fn request(&self) -> Result<Request, CliError> {
-        let scheme = Scheme::from(self.scheme);
-        let fill = self.fill.map_or(scheme.fill(), Fill::from);
+        let fill = self.fill.map(Fill::from);
+        let only_map = self.reach != 1 || fill.is_some_and(|fill| !Scheme::Source.takes(fill));
+        let usual = if only_map { Scheme::Map } else { Scheme::Source };
+        let scheme = self.scheme.map_or(usual, Scheme::from);
+        let fill = fill.unwrap_or_else(|| scheme.fill());
         if scheme == Scheme::Source {
             if !scheme.takes(fill) {
                 let sentence = format!(

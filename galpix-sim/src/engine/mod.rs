@@ -103,6 +103,15 @@ impl Scheme {
         }
     }
 
+    /// Returns the other one.
+    #[must_use]
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Map => Self::Source,
+            Self::Source => Self::Map,
+        }
+    }
+
     /// Returns what is put into holes, unless told otherwise.
     #[must_use]
     pub fn fill(self) -> Fill {

@@ -111,14 +111,15 @@ struct SceneReport {
 
 /// Runs a source and makes its story.
 fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport, ExperimentError> {
-    let both = job.source.name() == IN_BOTH_SCHEMES && job.request.scheme == Scheme::Map;
-    let mut as_sources = Vec::new();
-    if both {
-        run::job(&job.with_scheme(Scheme::Source), |shown| as_sources.push(shown.picture.clone()))?;
+    let other = (job.source.name() == IN_BOTH_SCHEMES).then_some(job.request.scheme.other());
+    let mut in_other = Vec::new();
+    if let Some(scheme) = other {
+        run::job(&job.with_scheme(scheme), |shown| in_other.push(shown.picture.clone()))?;
     }
     let mut pictures = Vec::new();
     let run = run::job(job, |shown| {
-        pictures.extend(panels(shown, as_sources.get(shown.frame as usize)));
+        let in_other = other.zip(in_other.get(shown.frame as usize));
+        pictures.extend(panels(shown, in_other.map(|(scheme, picture)| (picture, scheme.name()))));
         done(Work::Done);
     })?;
     let gain = match job.request.scheme {
@@ -132,12 +133,13 @@ fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport
              frame that skips what this picture does not need (medians of the first {FRAMES_FOR_GAIN} frames)."
         ));
     }
-    if both {
-        notes.push(
-            "The fourth picture of the film is the same update as stationary sources (galpix run disc --scheme source): no \
-             galpixel is lost in a collision, and colours are resampled."
-                .to_owned(),
-        );
+    if let Some(scheme) = other {
+        notes.push(format!(
+            "The fourth picture of the film is the same update in the other scheme (galpix run {} --scheme {}): in a map \
+             who loses a collision is lost and pixels show whole cells, with stationary sources neither is so.",
+            run.source,
+            scheme.name()
+        ));
     }
     if run.loaded.saturated > 0 {
         notes.push(format!("{} fields of the update were clamped to their range.", run.loaded.saturated));
@@ -194,14 +196,14 @@ fn budget_line(run: &RunReport) -> String {
 
 /// Truth, sample-and-hold, galpix, the other scheme where there is one, and the difference of galpix, side by side;
 /// frames without a truth are left out.
-fn panels(shown: &Shown<'_>, as_sources: Option<&Picture>) -> Option<Picture> {
+fn panels<'p>(shown: &Shown<'p>, in_other: Option<(&'p Picture, &'p str)>) -> Option<Picture> {
     let truth = &shown.truth?.picture;
     let difference = film::difference(shown.picture, truth);
     let pictures = [
         Some((truth, "truth")),
         Some((shown.hold, "sample-and-hold")),
         Some((shown.picture, "galpix")),
-        as_sources.map(|picture| (picture, "sources")),
+        in_other,
         Some((&difference, "difference x4")),
     ];
     let panels: Vec<Picture> =
