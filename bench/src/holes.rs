@@ -63,7 +63,7 @@ pub fn picture(width: u32, height: u32, holes: Holes) -> Picture {
         let (x, y) = ((cell % width) as i32, (cell / width) as i32);
         let depth = back.load(x, y).map_or(0, |galpixel| (galpixel.depth.to_bits() >> (32 - depth_bits)) as u32);
         picture.colours.push(back.colour(cell));
-        if back.class(cell) == Class::Galpixel {
+        if matches!(back.class(cell), Class::Galpixel | Class::Debris) {
             picture.known[(cell / 32) as usize] |= 1 << (cell % 32);
         }
         // A hole of which nothing is known is as far away as can be.

@@ -604,14 +604,14 @@ def neighbours(grid, cell):
 def is_edge(front, grid, cell, edge_threshold):
     """Section 8 (17): the bit of one cell."""
     reasons = []
-    if front[cell]["class"] != GALPIXEL:
+    if front[cell]["class"] == EMPTY:
         reasons.append("own class")
     depth_sum = 0
     for side, neighbour in zip(("left", "right", "above", "below"), neighbours(grid, cell)):
         if neighbour is None:
             reached[f"8 nothing {side}: the cell itself"] += 1
             neighbour = cell
-        elif front[neighbour]["class"] != GALPIXEL:
+        elif front[neighbour]["class"] == EMPTY:
             reasons.append(f"class {side}")
         depth_sum += front[neighbour]["depth"]
     difference = depth_sum - 4 * front[cell]["depth"]
@@ -740,19 +740,17 @@ def is_inside(back, winners, edges, place, k, foreign=()):
         reached["16 not inside: foreign"] += 1
         return False
     winner = winners[place]
-    if back[place]["class"] != GALPIXEL:
-        reached["10 not inside: class"] += 1
-        return False
     if edges is None:
         reached["11 not inside: no edge map"] += 1
         return False
     if winner < FILLED:
-        reached["10 not inside: edge" if edges[winner] else "10 inside: no edge"] += 1
+        how = "10 not inside: edge" if edges[winner] else "10 inside: no edge"
+        reached[how if back[place]["class"] == GALPIXEL else f"{how}, class {back[place]['class']}"] += 1
         return not edges[winner]
     if winner < FILLED + k:
         reached["10 inside: filled in an earlier round"] += 1
         return True
-    # a hole has class 3 until it is filled, so that no vector can lead here
+    reached["10 not inside: hole"] += 1
     return False
 
 
@@ -797,7 +795,7 @@ def mean_number(numbers):
 
 
 def mean(galpixels, format_name):
-    """Section 10: field by field; class, tag and luminosity are those of the first."""
+    """Section 10: field by field; tag and luminosity are those of the first."""
     result = dict(galpixels[0])
     for name in MEAN_FIELDS:
         result[name] = mean_number([galpixel[name] for galpixel in galpixels])
@@ -807,7 +805,13 @@ def mean(galpixels, format_name):
 
 
 def bullet_hole(engine, back, winners, edges, cell, k, foreign=()):
-    """Section 10: the galpixel of a bullet hole, or None if the cell is none."""
+    """Section 10: the bullet of a bullet hole, or None if the cell is none."""
+    result = bullet_of(engine, back, winners, edges, cell, k, foreign)
+    return result and {**result, "class": DEBRIS}
+
+
+def bullet_of(engine, back, winners, edges, cell, k, foreign):
+    """Section 10: what a bullet hole takes, but for the class; None if the cell is none."""
     places = neighbours(engine.grid, cell)
     inside = [back[place] if is_inside(back, winners, edges, place, k, foreign) else None for place in places]
     where = "sides"
@@ -1170,7 +1174,7 @@ def level_0(engine, galpixels, down):
         depth = 0 if klass == EMPTY else galpixel["depth"] >> down
         channels = split_channels(galpixel["colour"], engine.layout.colour)
         values = tuple(c << (10 - bits) for c, bits in zip(channels, form.channels))
-        nodes.append(Node(16, depth, values, cell) if klass == GALPIXEL else Node(0, depth, None, None))
+        nodes.append(Node(16, depth, values, cell) if klass in (GALPIXEL, DEBRIS) else Node(0, depth, None, None))
     return Stored(columns(engine.grid), rows(engine.grid), nodes)
 
 
@@ -1342,7 +1346,7 @@ def shown_layers(layers):
     """Section 16: for each cell the number of the layer that is shown."""
     numbers = []
     for cell in range(len(layers[0].own)):
-        there = [(layer.own[cell]["class"], layer.own[cell]["depth"], number)
+        there = [(layer.own[cell]["depth"], number)
                  for number, layer in enumerate(layers) if layer.own[cell]["class"] != EMPTY]
         if not there:
             reached["16 shown: nothing, the base's cell"] += 1
@@ -1350,12 +1354,14 @@ def shown_layers(layers):
             continue
         there.sort()
         if len(there) > 1:
-            level = "class" if there[0][0] != there[1][0] else "depth" if there[0][1] != there[1][1] else "layer"
-            reached[f"16 shown by {level}"] += 1
-        reached["16 shown: the base" if there[0][2] == 0 else "16 shown: another layer"] += 1
-        if there[0][2] and layers[0].own[cell]["class"] == EMPTY:
+            reached["16 shown by depth" if there[0][0] != there[1][0] else "16 shown by layer"] += 1
+        number = there[0][1]
+        reached["16 shown: another layer" if number else "16 shown: the base"] += 1
+        if number and layers[0].own[cell]["class"] == EMPTY:
             reached["16 shown: where the base has nothing"] += 1
-        numbers.append(there[0][2])
+        if any(layers[other].own[cell]["class"] < layers[number].own[cell]["class"] for _, other in there):
+            reached["16 shown: what was filled, before a galpixel"] += 1
+        numbers.append(number)
     return numbers
 
 
@@ -1815,13 +1821,15 @@ def galpixel_at(engine, galpixels, column, row):
 def join(one, other, limit):
     """Section 20: whether two cells join."""
     for galpixel in (one, other):
-        if galpixel["class"] != GALPIXEL:
-            reached[f"20 do not join: class {galpixel['class']}"] += 1
+        if galpixel["class"] == EMPTY:
+            reached["20 do not join: class 3"] += 1
             return False
     difference = abs(one["depth"] - other["depth"])
     if difference > limit:
         reached["20 do not join: depth"] += 1
         return False
+    if one["class"] != other["class"]:
+        reached["20 join, classes differ"] += 1
     if difference:
         reached["20 join, just so" if difference == limit else "20 join, depths differ"] += 1
     return True
@@ -1880,14 +1888,11 @@ def bilinear(engine, galpixels, column, row, limit):
 
 def covers(one, other, limit):
     """Section 20: whether a cell covers another one."""
-    if one["class"] != GALPIXEL or other["class"] == EMPTY:
+    if EMPTY in (one["class"], other["class"]):
         return False
-    if other["class"] != GALPIXEL:
-        reached[f"20 covers class {other['class']}"] += 1
-        return True
     farther = other["depth"] - one["depth"]
     if farther > limit:
-        reached["20 covers by depth"] += 1
+        reached[f"20 class {one['class']} covers class {other['class']}"] += 1
         return True
     if farther and farther == limit:
         reached["20 just does not cover"] += 1
@@ -2664,8 +2669,8 @@ def rule_names():
               "8 threshold above 2^31 - 1", "8 last word not full"]
     names += [f"9 format {name}" for name in FORMATS]
     names += ["10 K = 1 for the fill mode", "10 reach below 1", "10 reach above 16", "10 reach as it is",
-              "10 not inside: outside of the map", "10 not inside: class", "10 not inside: edge",
-              "10 inside: no edge", "10 inside: filled in an earlier round", "10 vacant: outside of the map",
+              "10 not inside: outside of the map", "10 not inside: hole", "10 not inside: edge",
+              "10 not inside: edge, class 2", "10 inside: no edge", "10 inside: no edge, class 2", "10 inside: filled in an earlier round", "10 vacant: outside of the map",
               "10 vacant: hole", "10 not vacant"]
     for where in ("sides", "corners"):
         names.append(f"10 {where}, case 1: all four")
@@ -2685,7 +2690,7 @@ def rule_names():
               "10 extend: only left", "10 extend: only right", "10 extend: row empty, before"]
     names += ["11 edge map made", "11 no edge map", "11 not inside: no edge map", "11 frame counter wraps"]
     names += ["16 not inside: foreign", "16 not vacant: foreign", "16 shown: nothing, the base's cell",
-              "16 shown by class", "16 shown by depth", "16 shown by layer", "16 shown: the base",
+              "16 shown: what was filled, before a galpixel", "16 shown by depth", "16 shown by layer", "16 shown: the base",
               "16 shown: another layer", "16 shown: where the base has nothing",
               "16 stationary-source: lost, but stored", "16 stationary-source: discarded, but stored", "16 stationary-source: displacement clamped",
               "16 hole stays in its layer", "16 bullet hole in another layer", "16 layer whose holes all stay",
@@ -2743,15 +2748,15 @@ def rule_names():
     names += ["20 part without an offset field", "20 part, f < 8", "20 part, f = 8", "20 part, f > 8, half",
               "20 part, f > 8, rounds up", "20 part, f > 8, rounds down", "20 part, f > 8, half a cell",
               "20 outside of the map", "20 beside the margin", "20 do not join: depth", "20 join, just so",
-              "20 join, depths differ"]
-    names += [f"20 do not join: class {klass}" for klass in (JUST_UNOBSCURED, DEBRIS, EMPTY)]
+              "20 join, depths differ", "20 join, classes differ", "20 do not join: class 3"]
     names += [f"20 parts in {name} {how}" for name in "xy"
               for how in ("not alike", "not alike, just so", "alike, just so")]
     names += [f"20 {what}, {how}" for what in ("bilinear corner", "bilinear", "silhouette")
               for how in ("just below half", "half", "rounds up", "rounds down")]
     names += [f"20 bilinear, {how}" for how in ("both axes", "corner not joined", "x alone", "y alone", "nothing")]
     names += [f"20 bilinear from {where}" for where in ("the left", "the right", "above", "below")]
-    names += ["20 covers class 1", "20 covers class 2", "20 covers by depth", "20 just does not cover"]
+    names += [f"20 class {one} covers class {other}" for one in range(EMPTY) for other in range(EMPTY)]
+    names += ["20 just does not cover"]
     names += [f"20 silhouette, {side} {how}{shown}" for side in SIDES for how in ("covers the cell", "is covered")
               for shown in ("", ", but not shown")]
     names += ["20 silhouette alone", "20 several silhouettes", "20 silhouette over bilinear"]

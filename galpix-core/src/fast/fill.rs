@@ -153,7 +153,11 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         let cell = row.start + x;
         let bullet = if self.fill_mode.uses_edges() { self.bullet(x as i32, row.y, row.round) } else { None };
         let (words, winner) = match bullet {
-            Some(words) => (words, FILLED + row.round),
+            Some(mut words) => {
+                // It loses against any galpixel.
+                self.around.record().class().set(&mut words, Class::Debris as u32);
+                (words, FILLED + row.round)
+            }
             None if row.last => (self.unobscured(row, x, ends), NO_WINNER),
             None => return,
         };
@@ -251,8 +255,7 @@ impl<'f, 'q, A: Around, F: Format> Filler<'f, 'q, A, F> {
         let cell = self.back.grid().cell(x, y)?;
         let winner = *self.winners.get(cell as usize)?;
         let inside = if winner >= FILLED { winner < FILLED + round } else { !on_edge(self.edges, winner) };
-        let own = self.around.foreign(cell) == 0;
-        (inside && own && self.back.class(cell) == Class::Galpixel).then_some(cell)
+        (inside && self.around.foreign(cell) == 0).then_some(cell)
     }
 
     /// Returns the mean of two cells.

@@ -162,6 +162,42 @@ impl Extract {
     }
 }
 
+/// How what tells surfaces apart is extracted from stored words: the depth, and above it a bit that is set if the cell
+/// is empty.
+#[derive(Clone, Copy)]
+pub(crate) struct Surface {
+    /// All bits of a word but the lower one of the class.
+    others: u32,
+    /// The lower bit of the class.
+    lower: Extract,
+    depth: Extract,
+    depth_bits: u8,
+    /// The lower bit of the class, and the depth just below it.
+    joined: Option<Extract>,
+}
+
+impl Surface {
+    /// Returns the surface of a cell, from the words with its class, its depth and the spilled bits of its depth.
+    #[inline(always)]
+    pub(crate) fn of(self, class: u32, depth: u32, spill: u32) -> u32 {
+        // Only the class of an empty cell has both bits set: the lower one is kept if the upper one is set.
+        match self.joined {
+            Some(joined) => {
+                let word = class & (class >> 1 | self.others);
+                joined.unsigned(word, word)
+            }
+            None => self.empty(class) | self.depth.unsigned(depth, spill),
+        }
+    }
+
+    /// Returns the bit above the depth alone.
+    #[inline(always)]
+    pub(crate) fn empty(self, class: u32) -> u32 {
+        let both = class & class >> 1;
+        self.lower.unsigned(both, both) << self.depth_bits
+    }
+}
+
 /// The shifts that convert velocity and acceleration of a component to the unit of its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -392,6 +428,27 @@ impl Record {
             Some(Field { bits: class.bits + depth.bits, ..depth })
         } else {
             None
+        }
+    }
+
+    /// Returns the lower bit of the class.
+    #[inline(always)]
+    pub(crate) const fn lower_class(&self) -> Field {
+        Field { bits: 1, ..self.class() }
+    }
+
+    /// Returns how to extract what tells surfaces apart. `fixed` says whether the record is known at compile time: then
+    /// fields that are adjacent are extracted at once.
+    #[inline(always)]
+    pub(crate) fn surface(&self, fixed: bool) -> Surface {
+        let (class, depth) = (self.class(), self.depth());
+        let joined = self.key_field().filter(|_| fixed);
+        Surface {
+            others: !(1 << class.shift),
+            lower: self.lower_class().extract(),
+            depth: depth.extract(),
+            depth_bits: depth.bits,
+            joined: joined.map(|key| Field { bits: key.bits - 1, ..key }.extract()),
         }
     }
 

@@ -6,9 +6,9 @@
 //!       down
 //! ```
 //!
-//! The Laplacian of the depth vanishes on a plane, but not at a step. A cell is **inside a surface** if it and its four
-//! neighbours are galpixels and the absolute Laplacian does not exceed the threshold; else it is **on an edge**. So a
-//! cell next to a hole or to debris is on an edge, because the surface is not known to continue there. A neighbour
+//! The Laplacian of the depth vanishes on a plane, but not at a step. A cell is **inside a surface** if neither it nor
+//! any of its four neighbours is empty and the absolute Laplacian does not exceed the threshold; else it is **on an
+//! edge**. What was filled takes part by its depth, like a galpixel: the depth alone tells surfaces apart. A neighbour
 //! outside of the map is taken to have the class and the depth of the cell itself.
 //!
 //! *Cost* per cell: 4 additions, 1 shift and 2 comparisons; five cells are read.
@@ -19,8 +19,8 @@ use crate::map::grid::Grid;
 
 /// Returns the Laplacian of the depth, equation (17).
 ///
-/// Exact for depths of up to 28 bits. Keys with a class above the depth may wrap; such cells are on an edge in any
-/// case.
+/// Exact for depths of up to 28 bits. With the bit of an empty cell above the depth it may wrap; such cells are on an
+/// edge in any case.
 #[inline(always)]
 #[must_use]
 pub const fn laplacian(z0: i32, left: i32, right: i32, up: i32, down: i32) -> i32 {

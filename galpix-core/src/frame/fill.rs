@@ -1,10 +1,11 @@
 //! Stage 4: fills the holes, which are the cells at which nothing arrived.
 //!
 //! A hole inside a surface is a **bullet hole**: it takes the mean of those neighbours that came from inside a surface,
-//! their motion included. A hole without such a neighbour was **just unobscured**; the fill mode decides what it holds.
-//! Each round decides for all holes from what arrived and from what earlier rounds filled, so that the order of
-//! traversal does not matter. Bullet fills do not spread into just-unobscured areas, because the cells at the boundary
-//! of such an area came from an edge.
+//! their motion included. Such a **bullet** is debris: it moves on with its surface, but loses against any galpixel. A
+//! hole without such a neighbour was **just unobscured**; the fill mode decides what it holds. Each round decides for
+//! all holes from what arrived and from what earlier rounds filled, so that the order of traversal does not matter.
+//! Bullet fills do not spread into just-unobscured areas, because the cells at the boundary of such an area came from
+//! an edge.
 //!
 //! Means are taken of 1, 2 or 4 galpixels, so that a shift divides. The candidates are the four neighbours that share a
 //! side with the hole: all four; else two that face each other; else the two there are; else the one there is. If all

@@ -1,8 +1,9 @@
 //! Stage 2: resolves collisions of galpixels that arrive at the same cell.
 //!
 //! The winner is the smallest in a total order: by class (a fully-fledged galpixel before debris), then by depth with
-//! its fraction (nearer first), then by source cell (smaller first). So the result does not depend on the order of
-//! traversal: threads or a hardware pipeline give the same bits.
+//! its fraction (nearer first), then by source cell (smaller first). So what was filled, a bullet too, never displaces
+//! a galpixel, and the result does not depend on the order of traversal: threads or a hardware pipeline give the same
+//! bits.
 
 use crate::format::Format;
 use crate::format::record::{Record, Words};

@@ -189,7 +189,7 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
             return Known::default();
         }
         let depth = pyramid_depth(key & ((1 << bits) - 1), bits);
-        if class == Class::Galpixel as u32 {
+        if class != Class::JustUnobscured as u32 {
             Known { validity: FULL, depth, value: self.reader()(self.map.colour(cell), cell) }
         } else {
             Known { validity: 0, depth, value: V::default() }
@@ -272,7 +272,7 @@ impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
         let keys = |cell: u32| {
             let mut keys = [u32::MAX; CELLS];
             let cell = cell as usize;
-            for (to, key) in keys.iter_mut().zip(self.map.keys(cell..cell + CELLS)) {
+            for (to, key) in keys.iter_mut().zip(self.map.half_keys(cell..cell + CELLS)) {
                 *to = key;
             }
             keys
@@ -288,7 +288,7 @@ impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
             uneven |= u32::from((farthest - nearest) as u32 > threshold);
             *depth = farthest as u32;
         }
-        // Galpixels are of class 0, which stands above the depth.
+        // What stands above the depth is 0 for galpixels and debris.
         if all >> bits != 0 || uneven != 0 {
             return None;
         }

@@ -3,8 +3,8 @@
 //! After a frame of fill mode [`Extend`](crate::FillMode::Extend) the cells of class
 //! [`JustUnobscured`](crate::Class::JustUnobscured) are exactly those that this frame uncovered: the *holes* of this
 //! stage. What it puts into them they carry with them as debris, so that an uncovered area is filled once, when it
-//! opens, and moves on with the picture. Fully-fledged galpixels are *known*; debris is not, so that nothing is made
-//! from what was made up.
+//! opens, and moves on with the picture. Galpixels and debris of earlier frames are *known*, so that what opens beside
+//! what was filled before is filled alike.
 //!
 //! 1. Stretched quads, where [`Inpainting::quads`] asks for them, give the holes the depth of the background.
 //! 2. [`PushPull`] pulls known cells into a pyramid and pushes what is missing down from it; foreground keeps out.

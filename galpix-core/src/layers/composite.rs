@@ -9,7 +9,6 @@ use crate::fast::VECTORS;
 use crate::format::Format;
 use crate::frame::reference::{below, opaque};
 use crate::map::Galpixmap;
-use crate::map::galpixel::Class;
 
 /// Cells per word of a composite mask, which are compared at once.
 const RUN: usize = 32;
@@ -27,17 +26,18 @@ pub(super) fn mask(composited: &[u32], cell: u32) -> u32 {
     opaque((word >> (cell & 31) & 1).wrapping_neg())
 }
 
-/// Exchanges the galpixels of `base` and `layer` in every cell where the layer's is nearer by class and depth, and sets
-/// the bits of these cells in `composited`; all other bits become 0.
+/// Exchanges the galpixels of `base` and `layer` in every cell where the layer's is nearer, and sets the bits of these
+/// cells in `composited`; all other bits become 0.
 ///
-/// Of equal keys the base's galpixel stays, which may be that of a layer that was composited before.
+/// The depth alone decides, not the class: a filled cell belongs to its surface, and what it covers stays in its layer.
+/// Of equal depths the base's galpixel stays, which may be that of a layer that was composited before.
 pub(super) fn composite<F: Format, const CONSTANT_TIME: bool>(
     base: &mut Galpixmap<'_, F>,
     layer: &mut Galpixmap<'_, F>,
     composited: &mut [u32],
 ) {
     let cells = base.grid().cells() as usize;
-    let empty = (Class::Empty as u32) << base.record().depth().bits;
+    let empty = 1 << base.record().depth().bits;
     for (index, composited) in composited.iter_mut().enumerate() {
         let run = index * RUN..cells.min(index * RUN + RUN);
         *composited = 0;
@@ -46,8 +46,8 @@ pub(super) fn composite<F: Format, const CONSTANT_TIME: bool>(
         }
         let mut nearer = [0; RUN];
         let mut any = 0;
-        let keys = base.keys(run.clone()).zip(layer.keys(run.clone()));
-        for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(keys) {
+        let surfaces = base.surfaces(run.clone()).zip(layer.surfaces(run.clone()));
+        for (nearer, (incumbent, challenger)) in nearer.iter_mut().zip(surfaces) {
             // An empty cell is never shown, whatever its other fields hold.
             *nearer = below(challenger, incumbent.min(empty));
             any |= *nearer;

@@ -9,8 +9,8 @@
 //! map is the picture. Where a galpixel of a hidden layer is nearer, the two change places: the layer is *composited*
 //! with the base there, and a bit records it. Before the layers move, they are *restored*: the galpixels change back.
 //! So the edge map, the fill modes, inpainting and scan-out work on the picture as they do without layers, and cells in
-//! which nothing is composited cost no exchange. What fills a hole belongs to the base; it is debris, so it loses
-//! against any galpixel.
+//! which nothing is composited cost no exchange. What fills a hole belongs to the base. Between layers the depth alone
+//! decides: what is covered stays in its layer.
 //!
 //! ```text
 //!             ┌ front 0 ─▶ edge, sweep ───▶ back 0 ─┐

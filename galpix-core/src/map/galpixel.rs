@@ -13,7 +13,7 @@ pub enum Class {
     Galpixel = 0,
     /// What a fill left in a cell that was unobscured in this frame. It becomes debris in the next frame.
     JustUnobscured = 1,
-    /// Something that was left behind; it loses against any galpixel.
+    /// What a fill made: a bullet, or what was just unobscured in an earlier frame. It loses against any galpixel.
     Debris = 2,
     /// Nothing; the cell's colour is what the display keeps showing there.
     Empty = 3,

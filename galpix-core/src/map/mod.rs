@@ -184,18 +184,51 @@ impl<'p, F: Format> Galpixmap<'p, F> {
     /// Returns the keys of some cells, as [`Self::key_at`]; none if not all cells are in the map.
     #[inline(always)]
     pub(crate) fn keys(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
+        self.keys_with(self.record().class(), cells)
+    }
+
+    /// Returns the depths of some cells, and above each the lower bit of the class, which galpixels and debris lack;
+    /// none if not all cells are in the map.
+    #[inline(always)]
+    pub(crate) fn half_keys(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
+        self.keys_with(self.record().lower_class(), cells)
+    }
+
+    /// Returns keys with `class`, which is the field of the class or its lower bit, above the depth.
+    #[inline(always)]
+    fn keys_with(&self, class: Field, cells: Range<usize>) -> impl Iterator<Item = u32> {
         let record = self.record();
         let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
-        let (class_word, _) = record.class().words();
+        let (class_word, _) = class.words();
         let (depth_word, spill_word) = record.depth().words();
-        let (class, depth, depth_bits) = (record.class().extract(), record.depth().extract(), record.depth().bits);
-        let joined = record.key_field().map(Field::extract);
+        let depth_bits = record.depth().bits;
+        let joined = record.key_field().map(|key| Field { bits: depth_bits + class.bits, ..key }.extract());
+        let (class, depth) = (class.extract(), record.depth().extract());
         plane(class_word).iter().zip(plane(depth_word)).zip(plane(spill_word)).map(move |((&top, &word), &spill)| {
             match joined {
                 Some(key) if F::FIXED => key.unsigned(word, word),
                 _ => class.unsigned(top, top) << depth_bits | depth.unsigned(word, spill),
             }
         })
+    }
+
+    /// Returns what tells surfaces apart in a cell: its depth, and above it a bit that is set if the cell is empty.
+    /// `None` outside of the map.
+    #[inline(always)]
+    pub(crate) fn surface_at(&self, cell: u32) -> Option<u32> {
+        self.surfaces(cell as usize..cell as usize + 1).next()
+    }
+
+    /// Returns the surfaces of some cells, as [`Self::surface_at`]; none if not all cells are in the map.
+    #[inline(always)]
+    pub(crate) fn surfaces(&self, cells: Range<usize>) -> impl Iterator<Item = u32> {
+        let record = self.record();
+        let plane = |word: usize| self.planes[word].get(cells.clone()).unwrap_or_default();
+        let (class_word, _) = record.class().words();
+        let (depth_word, spill_word) = record.depth().words();
+        let surface = record.surface(F::FIXED);
+        let words = plane(class_word).iter().zip(plane(depth_word)).zip(plane(spill_word));
+        words.map(move |((&class, &depth), &spill)| surface.of(class, depth, spill))
     }
 
     /// Returns a field of a cell as a two's complement number; 0 outside of the map.

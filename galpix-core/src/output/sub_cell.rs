@@ -25,7 +25,6 @@ use crate::format::record::Field;
 use crate::frame::reference::{choose, negative};
 use crate::frame::step::parts;
 use crate::map::Galpixmap;
-use crate::map::galpixel::Class;
 use crate::output::scan_out::Sampling;
 
 /// The base-2 logarithm of the parts of a cell in which offsets weigh.
@@ -121,7 +120,7 @@ impl<F: Format> ExactSizeIterator for Resampled<'_, '_, F> {}
 
 /// What is read of a run of cells of one row.
 struct Lanes {
-    /// Class and depth as one number: smaller is nearer.
+    /// The depth, and above it a bit that is set if the cell is empty: smaller is nearer.
     keys: Lane<u32>,
     colours: Lane<u32>,
     /// Offsets along the column, in parts of a cell.
@@ -214,14 +213,14 @@ impl<F: Format> Rows<'_, '_, F> {
     fn bilinear(&self, around: &Around, run: &mut [u32; RUN], inside: &mut [u32; RUN]) {
         let Around { above, row, below, right } = around;
         let format = self.map.record().colour_format();
-        let end = self.end(Class::Galpixel) as i32;
+        let end = self.end() as i32;
         for index in 0..RUN {
             let [l, c, r] = [index, index + 1, index + 2];
             // Keys and threshold have 30 bits, so that no difference overflows.
             let key = row.keys[c] as i32;
             let (first, last) = (key - self.threshold, (key + self.threshold).min(end - 1));
-            let is_galpixel = negative(key - end);
-            let joins = |other: u32| !negative((other as i32 - first) | (last - other as i32)) & is_galpixel;
+            let is_there = negative(key - end);
+            let joins = |other: u32| !negative((other as i32 - first) | (last - other as i32)) & is_there;
             let (x, y) = (right[c], row.down[c]);
             let [to_left, to_top] = [negative(-x), negative(-y)];
             let side = |lane: &Lane<u32>| choose(to_left, lane[l], lane[r]);
@@ -307,28 +306,28 @@ impl<F: Format> Rows<'_, '_, F> {
     #[inline(always)]
     fn read_keys(&self, part: &Part, lane: &mut Lane<u32>) {
         let record = self.map.record();
+        let surface = record.surface(F::FIXED);
         if let (Some(key), true) = (record.key_field(), F::FIXED) {
-            return self.read_unsigned(part, key, lane);
+            return self.read(part, key, lane, |word, _| surface.of(word, word, word));
         }
         let mut depths = [0; RUN + 2];
-        self.read_unsigned(part, record.class(), lane);
+        self.read(part, record.class(), lane, |word, _| surface.empty(word));
         self.read_unsigned(part, record.depth(), &mut depths);
         for (key, depth) in lane.iter_mut().zip(depths) {
-            *key = *key << record.depth().bits | depth;
+            *key |= depth;
         }
     }
 
-    /// Returns the key after the last one of a class.
+    /// Returns the key after the last one of a cell that is not empty.
     #[inline(always)]
-    fn end(&self, class: Class) -> u32 {
-        (class as u32 + 1) << self.map.record().depth().bits
+    fn end(&self) -> u32 {
+        1 << self.map.record().depth().bits
     }
 
-    /// Returns whether a key is that of a galpixel in front of what has the other key.
+    /// Returns whether a key is that of something in front of what has the other key.
     #[inline(always)]
     fn covers(&self, key: u32, other: u32) -> bool {
-        let (end, threshold) = (self.end(Class::Galpixel), self.threshold as u32);
-        key < end && other < self.end(Class::Debris) && (other >= end || other.saturating_sub(key) > threshold)
+        other < self.end() && other.saturating_sub(key) > self.threshold as u32
     }
 }
 

@@ -53,6 +53,10 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
             };
             cases.push(case(seed, model, picture, shape)?);
         }
+        // Few levels, so that more often a cell has no sample of its own, but of those beside it.
+        for shape in [grid(5, 5, [0; 4]), grid(8, 8, [0; 4])] {
+            cases.push(case(seed, model, Picture::Random, shape)?);
+        }
         // A map without a level above it.
         cases.push(case(seed, model, Picture::Leave, grid(1, 1, [0; 4]))?);
     }

@@ -2,6 +2,7 @@
 //! `codegen_`.
 
 mod bounds;
+mod bullets;
 mod captures;
 mod codegen;
 mod ddoc;

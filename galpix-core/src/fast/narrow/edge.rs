@@ -1,4 +1,4 @@
-//! The edge map for processors without vector registers, where each key costs instructions: skips runs of equal depth.
+//! The edge map for processors without vector registers, where each cell costs instructions: skips runs of equal depth.
 
 use crate::format::Format;
 use crate::format::record::MAX_WORDS;
@@ -39,8 +39,8 @@ pub(crate) fn mark<F: Format>(front: &Galpixmap<'_, F>, threshold: u32, edges: &
 struct Strip {
     /// The first cell of the whole row.
     row: u32,
-    /// The key of all cells of the row that are in the strip, if they are galpixels of equal depth.
-    key: Option<u32>,
+    /// The surface of all cells of the row that are in the strip, if they have equal depths and none is empty.
+    surface: Option<u32>,
 }
 
 impl Strip {
@@ -48,37 +48,41 @@ impl Strip {
     #[inline(always)]
     fn of<F: Format>(front: &Galpixmap<'_, F>, row: u32, (x, cells): (u32, u32)) -> Self {
         let start = row + x;
-        let key = front.key_at(start).filter(|&key| front.class_of(key) == 0);
-        let uniform = key.is_some() && is_uniform(front, start, cells.min(PROBE)) && is_uniform(front, start, cells);
-        Self { row, key: key.filter(|_| uniform) }
+        let empty = 1 << front.record().depth().bits;
+        let surface = front.surface_at(start).filter(|surface| surface & empty == 0);
+        let uniform =
+            surface.is_some() && is_uniform(front, start, cells.min(PROBE)) && is_uniform(front, start, cells);
+        Self { row, surface: surface.filter(|_| uniform) }
     }
 
-    /// Returns whether all cells and all their neighbours are galpixels of equal depth.
+    /// Returns whether all cells and all their neighbours have equal depths and none is empty.
     #[inline(always)]
     fn is_inside<F: Format>(self, [up, down]: [Self; 2], front: &Galpixmap<'_, F>, (x, cells): (u32, u32)) -> bool {
         let (start, end) = (self.row + x, self.row + x + cells);
-        self.key.is_some()
-            && up.key == self.key
-            && down.key == self.key
-            && (x == 0 || front.key_at(start - 1) == self.key)
-            && (x + cells == front.grid().width() || front.key_at(end) == self.key)
+        self.surface.is_some()
+            && up.surface == self.surface
+            && down.surface == self.surface
+            && (x == 0 || front.surface_at(start - 1) == self.surface)
+            && (x + cells == front.grid().width() || front.surface_at(end) == self.surface)
     }
 }
 
-/// Returns whether `cells` cells have equal keys.
+/// Returns whether `cells` cells, of which the first is not empty, have equal depths and none is empty.
 #[inline(never)]
 fn is_uniform<F: Format>(front: &Galpixmap<'_, F>, start: u32, cells: u32) -> bool {
     let record = *front.record();
-    let mut ones = [0; MAX_WORDS];
-    record.class().set(&mut ones, u32::MAX);
-    record.depth().set(&mut ones, u32::MAX);
-    let mut uniform = true;
-    for (plane, ones) in front.planes().iter().zip(ones).take(record.words()) {
-        if ones != 0 {
+    let (mut classes, mut depths) = ([0; MAX_WORDS], [0; MAX_WORDS]);
+    record.class().set(&mut classes, u32::MAX);
+    record.depth().set(&mut depths, u32::MAX);
+    let (mut equal, mut of_one_class) = (true, true);
+    for ((plane, class), depth) in front.planes().iter().zip(classes).zip(depths).take(record.words()) {
+        if class | depth != 0 {
             let cells = plane.get(start as usize..(start + cells) as usize).unwrap_or_default();
             let first = cells.first().copied().unwrap_or_default();
-            uniform &= cells.iter().fold(0, |differ, cell| differ | cell ^ first) & ones == 0;
+            let differ = cells.iter().fold(0, |differ, cell| differ | cell ^ first);
+            equal &= differ & depth == 0;
+            of_one_class &= differ & class == 0;
         }
     }
-    uniform
+    equal && (of_one_class || !front.any_empty(start, cells))
 }

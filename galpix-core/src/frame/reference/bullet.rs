@@ -9,6 +9,7 @@ use crate::frame::edge::on_edge;
 use crate::frame::fill::{Around, FILLED, mean4};
 use crate::frame::resolve::NO_WINNER;
 use crate::map::Galpixmap;
+use crate::map::galpixel::Class;
 
 /// What the cells around a hole hold, and where it came from.
 pub(super) struct Surroundings<'s, 'p, A, F> {
@@ -90,7 +91,10 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
         let words = |cell: u32| self.back.words_at(cell).unwrap_or_default();
         let (first, second) = (words(chosen.first), words(chosen.second));
         let (third, fourth) = (words(chosen.third), words(chosen.fourth));
-        (mean4(self.back.record(), [&first, &second, &third, &fourth]), chosen.any)
+        let mut mean = mean4(self.back.record(), [&first, &second, &third, &fourth]);
+        // It loses against any galpixel.
+        self.back.record().class().set(&mut mean, Class::Debris as u32);
+        (mean, chosen.any)
     }
 
     /// Returns the winner of the cell at a place; [`NO_WINNER`] beyond the border.
@@ -122,7 +126,6 @@ impl<A: Around, F: Format> Surroundings<'_, '_, A, F> {
         let winner = self.winner(place);
         let filled = opaque(negative(winner as i32));
         let on_edge = (on_edge(self.edges, winner & !filled) as u32).wrapping_neg();
-        let galpixel = opaque(below(self.back.class(place.cell) as u32, 1));
-        galpixel & !self.around.foreign(place.cell) & choose(filled, self.filled_before(winner), !on_edge)
+        !self.around.foreign(place.cell) & choose(filled, self.filled_before(winner), !on_edge)
     }
 }

@@ -1,7 +1,7 @@
-//! The edge map, cell by cell. Each key of the row is read once.
+//! The edge map, cell by cell. Each cell of the row is read once.
 
 use crate::format::Format;
-use crate::format::record::Record;
+use crate::format::record::Surface;
 use crate::frame::edge::{laplacian, set};
 use crate::map::Galpixmap;
 
@@ -50,8 +50,8 @@ pub(crate) fn mark_run<F: Format>(
 ) -> u32 {
     let [first, up, down] = rows.map(|row| row + x);
     // In the first and the last column the cell is its own neighbour.
-    let z0 = front.key_at(first).unwrap_or_default();
-    let left = if x == 0 { z0 } else { front.key_at(first - 1).unwrap_or(z0) };
+    let z0 = front.surface_at(first).unwrap_or_default();
+    let left = if x == 0 { z0 } else { front.surface_at(first - 1).unwrap_or(z0) };
     let ends = x + cells == front.grid().width();
     let paired = cells - u32::from(ends);
     let neighbours = Neighbours { right: first + 1, up, down };
@@ -78,8 +78,8 @@ impl Neighbours {
         Self { right: self.right + cells, up: self.up + cells, down: self.down + cells }
     }
 
-    /// Returns the flags of `cells` cells, the last one in the highest bit. `left` and `z0` are the keys left of the
-    /// first cell and of the first cell; returns these keys of the cell that follows, too.
+    /// Returns the flags of `cells` cells, the last one in the highest bit. `left` and `z0` are the surfaces left of
+    /// the first cell and of the first cell; returns these two of the cell that follows, too.
     #[inline(never)]
     fn flags<F: Format>(
         self,
@@ -88,7 +88,7 @@ impl Neighbours {
         threshold: i32,
         [mut left, mut z0]: [u32; 2],
     ) -> (u32, [u32; 2]) {
-        let record = *front.record();
+        let (record, surface) = (front.record(), front.record().surface(F::FIXED));
         let count = cells as usize;
         // The words with class, depth and the spilled bits of the depth, for each of the three neighbours.
         let (class, (depth, spill)) = (record.class().words().0, record.depth().words());
@@ -100,8 +100,8 @@ impl Neighbours {
         let mut flags = 0;
         let mut lane = 0;
         while lane < count {
-            let right = key::<F>(&record, &rights, lane);
-            let (up, down) = (key::<F>(&record, &ups, lane), key::<F>(&record, &downs, lane));
+            let right = at(surface, &rights, lane);
+            let (up, down) = (at(surface, &ups, lane), at(surface, &downs, lane));
             flags = flags >> 1 | flag(front, threshold, z0, [left, right, up, down]);
             (left, z0) = (z0, right);
             lane += 1;
@@ -111,21 +111,15 @@ impl Neighbours {
 
     /// Returns the flag of the last cell of a row, which has no neighbour to the right.
     fn flag_of_last<F: Format>(self, front: &Galpixmap<'_, F>, threshold: i32, [left, z0]: [u32; 2]) -> u32 {
-        let (up, down) = (front.key_at(self.up).unwrap_or(z0), front.key_at(self.down).unwrap_or(z0));
+        let (up, down) = (front.surface_at(self.up).unwrap_or(z0), front.surface_at(self.down).unwrap_or(z0));
         flag(front, threshold, z0, [left, z0, up, down])
     }
 }
 
-/// Returns the key of a lane, from the words with its class, its depth and the spilled bits of its depth.
+/// Returns the surface of a lane, from the words with its class, its depth and the spilled bits of its depth.
 #[inline(always)]
-fn key<F: Format>(record: &Record, [class, depth, spill]: &[&[u32]; 3], lane: usize) -> u32 {
-    match record.key_field() {
-        Some(key) if F::FIXED => key.extract().unsigned(class[lane], class[lane]),
-        _ => {
-            record.class().extract().unsigned(class[lane], class[lane]) << record.depth().bits
-                | record.depth().extract().unsigned(depth[lane], spill[lane])
-        }
-    }
+fn at(surface: Surface, [class, depth, spill]: &[&[u32]; 3], lane: usize) -> u32 {
+    surface.of(class[lane], depth[lane], spill[lane])
 }
 
 /// Returns the highest bit if a cell is on an edge, else 0. Uses signs of numbers, so that no comparison has to become
@@ -135,10 +129,10 @@ fn flag<F: Format>(front: &Galpixmap<'_, F>, threshold: i32, z0: u32, others: [u
     let [left, right, up, down] = others;
     let source = laplacian(z0 as i32, left as i32, right as i32, up as i32, down as i32);
     let (below, above) = (threshold.wrapping_add(source), threshold.wrapping_sub(source));
-    // The class of a galpixel is 0, and the class is above the depth.
+    // The bit of an empty cell is above the depth.
     let deepest = (1 << front.record().depth().bits) - 1;
-    let classes = deepest - (z0 | left | right | up | down) as i32;
-    (below | above | classes) as u32 & 1 << (WORD - 1)
+    let empty = deepest - (z0 | left | right | up | down) as i32;
+    (below | above | empty) as u32 & 1 << (WORD - 1)
 }
 
 /// Returns how many bits are set. Not by `count_ones`, which LLVM lowers to a multiplication where there is no such

@@ -117,7 +117,8 @@ impl<F: Format> Scene for Uncovered<'_, '_, F, Tone> {
             let depth = pyramid_depth(keys[x] & ((1 << bits) - 1), bits);
             let class = keys[x] >> bits;
             cells.depths[x] = if class == Class::Empty as u32 { 0 } else { depth as i32 };
-            cells.known[x] = -((class == Class::Galpixel as u32) as i32);
+            // Galpixels and debris: the classes without the lower bit.
+            cells.known[x] = (class & 1) as i32 - 1;
             let [luma, blue, red] = read(colours[x], 0).channels;
             cells.channels[0][x] = luma;
             cells.channels[1][x] = blue;

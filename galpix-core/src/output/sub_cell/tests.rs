@@ -58,14 +58,12 @@ fn expected<F: Format>(map: &Galpixmap<'_, F>, threshold: u32, x: i64, y: i64) -
     let [right, down] = here.offset;
     let (dx, dy) = (if right > 0 { -1 } else { 1 }, if down > 0 { -1 } else { 1 });
     let surface = |other: Option<Plain>| {
-        other.filter(|other| here.class == 0 && other.class == 0 && (here.depth - other.depth).abs() <= threshold)
+        other.filter(|other| here.class != 3 && other.class != 3 && (here.depth - other.depth).abs() <= threshold)
     };
     let beside = surface(at(dx, 0)).filter(|other| (other.offset[0] - right).abs() <= 96);
     let along = surface(at(0, dy)).filter(|other| (other.offset[1] - down).abs() <= 96);
     let diagonal = surface(at(dx, dy)).filter(|_| beside.is_some() && along.is_some());
-    let in_front = |near: Plain, far: Plain| {
-        near.class == 0 && far.class != 3 && (far.class != 0 || far.depth - near.depth > threshold)
-    };
+    let in_front = |near: Plain, far: Plain| near.class != 3 && far.class != 3 && far.depth - near.depth > threshold;
     let mut word = 0;
     for channel in map.record().colour_format().channels() {
         let level = |cell: Plain| i64::from(cell.colour >> channel.shift & ((1 << channel.bits) - 1));
@@ -318,19 +316,19 @@ fn offset_0_is_exact() {
 }
 
 #[test]
-fn holes_and_debris_keep_their_colour() {
+fn empty_cells_keep_their_colour_and_give_none() {
     let mut random = Random(4);
     let (format, shape) = (format(4, Layout::FULL), (13, 7, Margin::NONE));
     for threshold in [0, 1, u32::MAX] {
         let mut words = hostile(&mut random, 13 * 7, format, true);
         with_map(shape, format, &mut words, |map| {
             for (x, y) in (0..7).flat_map(|y| (0..13).map(move |x| (x, y))) {
-                let class = |dx: i32, dy: i32| match map.grid().cell(x + dx, y + dy) {
-                    Some(cell) => map.class(cell),
-                    None => Class::Empty,
+                let empty = |dx: i32, dy: i32| {
+                    map.grid().cell(x + dx, y + dy).is_none_or(|cell| map.class(cell) == Class::Empty)
                 };
-                let beside = [(-1, 0), (1, 0), (0, -1), (0, 1)].iter().any(|&(x, y)| class(x, y) == Class::Galpixel);
-                if class(0, 0) == Class::Empty || class(0, 0) != Class::Galpixel && !beside {
+                let alone =
+                    (-1..=1).flat_map(|y| (-1..=1).map(move |x| (x, y))).all(|at| at == (0, 0) || empty(at.0, at.1));
+                if empty(0, 0) || alone {
                     let shown = row(&map, threshold, y as u32).nth(x as usize).unwrap();
                     assert_eq!(shown, map.colour(map.grid().cell(x, y).unwrap()));
                 }
@@ -378,10 +376,15 @@ fn silhouettes_cover_what_they_reach_over() {
             },
         );
     }
-    // Debris behind the surface is covered likewise, and a hole is not.
+    // What was filled covers and is covered likewise, by its depth; a hole is not.
     for (class, shown) in [(Class::Debris, 64), (Class::JustUnobscured, 64), (Class::Empty, 0)] {
-        let near =
-            |x: i32| if x < 3 { at("0.25", "0", 255, "0.75") } else { Galpixel { class, ..at("0", "0", 0, "0") } };
+        let near = |x: i32| {
+            if x < 3 { at("0.25", "0", 255, "0.25") } else { Galpixel { class, ..at("0", "0", 0, "0.75") } }
+        };
+        drawn((6, 3), |x, _| near(x), |map| assert_eq!(row(map, 1 << 10, 1).nth(3), Some(shown), "{class:?}"));
+        let near = |x: i32| {
+            if x < 3 { Galpixel { class, ..at("0.25", "0", 255, "0.25") } } else { at("0", "0", 0, "0.75") }
+        };
         drawn((6, 3), |x, _| near(x), |map| assert_eq!(row(map, 1 << 10, 1).nth(3), Some(shown), "{class:?}"));
     }
 }

@@ -179,7 +179,8 @@ fn holes_move_as_a_known_galpixel_does() {
                         .filter(move |galpixel| galpixel.class == class)
                         .map(|galpixel| (galpixel.velocity, galpixel.acceleration))
                 };
-                let known: std::collections::HashSet<_> = galpixels(Class::Galpixel).collect();
+                let known: std::collections::HashSet<_> =
+                    galpixels(Class::Galpixel).chain(galpixels(Class::Debris)).collect();
                 assert!(
                     galpixels(Class::JustUnobscured).all(|motion| known.contains(&motion)),
                     "{}",

@@ -9,6 +9,8 @@ use galpix_tests::packed;
 /// The words of a cell.
 pub type Cell = Vec<u32>;
 
+/// What a bullet hole becomes.
+const DEBRIS: i64 = 2;
 pub const EMPTY: i64 = 3;
 
 pub fn class(record: &Record, cell: &Cell) -> i64 {
@@ -34,8 +36,8 @@ pub fn edges(record: &Record, cells: &[Cell], columns: usize, threshold: u32) ->
             ];
             let laplacian =
                 beside.iter().map(|&cell| depth(record, &cells[cell])).sum::<i64>() - 4 * depth(record, &cells[cell]);
-            let others = beside.iter().chain([&cell]).any(|&cell| class(record, &cells[cell]) != 0);
-            others || laplacian.abs() > threshold
+            let empty = beside.iter().chain([&cell]).any(|&cell| class(record, &cells[cell]) == EMPTY);
+            empty || laplacian.abs() > threshold
         })
         .collect()
 }
@@ -63,7 +65,8 @@ impl Holes<'_> {
         for round in 0..rounds {
             let (was, had) = (cells.to_vec(), winners.to_vec());
             for cell in (0..was.len()).filter(|&cell| class(self.record, &was[cell]) == EMPTY) {
-                if let Some(words) = self.bullet(&was, &had, cell, round) {
+                if let Some(mut words) = self.bullet(&was, &had, cell, round) {
+                    packed::set(self.record.class(), &mut words, DEBRIS);
                     (cells[cell], winners[cell]) = (words, FILLED + round);
                     tally.bullets += 1;
                 } else if let (Some(before), true) = (self.before, round + 1 == rounds) {
@@ -96,7 +99,7 @@ impl Holes<'_> {
             } else {
                 winner < FILLED + round
             };
-            (inside && !self.foreign[cell] && class(self.record, &was[cell]) == 0).then(|| &was[cell])
+            (inside && !self.foreign[cell]).then(|| &was[cell])
         };
         let vacant = |step: [i32; 2]| match self.at(cell, was.len(), step) {
             None => true,

@@ -177,12 +177,7 @@ impl Model {
         let layer = |cell: usize| {
             let there =
                 (0..self.layers.len()).filter(|&layer| class(&record, &self.layers[layer].cells[cell]) != EMPTY);
-            there
-                .min_by_key(|&layer| {
-                    let words = &self.layers[layer].cells[cell];
-                    (class(&record, words), depth(&record, words), layer)
-                })
-                .unwrap_or(0)
+            there.min_by_key(|&layer| (depth(&record, &self.layers[layer].cells[cell]), layer)).unwrap_or(0)
         };
         let layers: Vec<usize> = (0..self.shape.cells() as usize).map(layer).collect();
         (layers.iter().enumerate().map(|(cell, &layer)| self.layers[layer].cells[cell].clone()).collect(), layers)
