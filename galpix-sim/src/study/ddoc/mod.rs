@@ -102,7 +102,7 @@ impl Study for Request {
     type Report = Seen;
     type Extra = NoExtra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+    const LEGENDS: &'static [&'static str] = &[columns::LEGEND];
     const SECONDS: bool = false;
 
     fn name<'a>(&self, world: &'a World) -> &'a str {

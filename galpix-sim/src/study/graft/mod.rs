@@ -102,7 +102,7 @@ impl Study for Plan {
     type Report = Seen;
     type Extra = NoExtra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
+    const LEGENDS: &'static [&'static str] = &[columns::LEGEND];
     const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
