@@ -71,7 +71,7 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
         sources: reports,
     };
     if !to.json {
-        S::LEGENDS.iter().try_for_each(|legend| print(legend))?;
+        study.legends().iter().try_for_each(|legend| print(legend))?;
     }
     publish(study, &document, to)?;
     Ok(study.verdict(&document)?)

@@ -1,5 +1,7 @@
 //! The columns of the measures that every table and every page has, beside its own.
 
+use maud::{Markup, html};
+
 use super::column::Column;
 use crate::metric::measures::Measures;
 
@@ -19,7 +21,32 @@ pub fn columns<R: Measured>() -> [Column<R>; 4] {
     ]
 }
 
-/// What the columns are.
-pub const LEGEND: &str = "inside: PSNR of all cells but those that are missing in connection with the border, the same for all schemes and \
-fills; change: mean of |change shown - true change| of luma from the frame before, inside; judder: rms change, from the frame before, of the \
-displacement of blocks of 16x16 cells against the truth; missing: cells that no galpixel of the update reached, before anything was put there.";
+/// What the columns are, by name.
+const MEANINGS: [(&str, &str); 4] = [
+    (
+        "inside",
+        "PSNR of all cells but those that are missing in connection with the border, the same for all schemes and fills",
+    ),
+    ("change", "mean of |change shown - true change| of luma from the frame before, inside"),
+    (
+        "judder",
+        "rms change, from the frame before, of the displacement of blocks of 16x16 cells against the truth, where galpixels of the update reached both",
+    ),
+    ("missing", "cells that no galpixel of the update reached, before anything was put there"),
+];
+
+/// Returns what the columns are, for the terminal.
+pub fn legend() -> String {
+    MEANINGS.map(|(name, meaning)| format!("{name}: {meaning}")).join("; ") + "."
+}
+
+/// Returns what the columns are, for a page.
+pub fn reading() -> Markup {
+    html! {
+        @for (index, (name, meaning)) in MEANINGS.iter().enumerate() {
+            @if index > 0 { "; " }
+            b { (name) } ": " (meaning)
+        }
+        "."
+    }
+}

@@ -122,7 +122,7 @@ pub fn overview(report: &Report) -> Markup {
                 p.remark {
                     "PSNR against the truth, and the measures after it: means over the frames. Position error: the worst, against \
                      the exact second-order path, before the snap. Time: the median of all frames. "
-                    (Text(measures::LEGEND))
+                    (measures::reading())
                 }
             }
         }

@@ -50,8 +50,6 @@ impl Study for Plan {
     type Report = Demonstration;
     type Extra = NoExtra;
 
-    const LEGENDS: &'static [&'static str] = &[columns::LEGEND, measures::LEGEND];
-
     fn name<'a>(&self, _sources: &'a Vec<Source>) -> &'a str {
         "demo"
     }
@@ -68,6 +66,10 @@ impl Study for Plan {
     fn study(&self, jobs: &Vec<Job<'_>>, stage: &Stage<'_>) -> Result<Found<Demonstration>, StudyError> {
         let scenes = jobs.par_iter().map(|job| report(job, stage.notify)).collect::<Result<_, _>>();
         Ok(Found::Report(Demonstration { scenes: scenes.map_err(StudyError::unusable)? }))
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned(), measures::legend()]
     }
 
     fn text(&self, report: &Demonstration) -> String {

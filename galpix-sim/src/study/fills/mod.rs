@@ -67,8 +67,6 @@ impl Study for Plan {
     type Report = SourceReport;
     type Extra = Extra;
 
-    const LEGENDS: &'static [&'static str] = &[columns::LEGEND, measures::LEGEND];
-
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
     }
@@ -90,6 +88,10 @@ impl Study for Plan {
 
     fn head(&self) -> Option<String> {
         (!self.left_out.is_empty()).then(|| self.left_out.join("\n"))
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned(), measures::legend()]
     }
 
     fn text(&self, report: &SourceReport) -> String {

@@ -10,7 +10,7 @@ use crate::engine::Scheme;
 use crate::output::column;
 use crate::output::html::axis::Scale;
 use crate::output::html::scatter::{self, Mark, Scatter, Shape};
-use crate::output::html::text::{Text, count, figure};
+use crate::output::html::text::{count, figure};
 use crate::output::html::{self as page, Head, style::Ink};
 use crate::output::measures;
 use crate::study::{crops, ink};
@@ -19,14 +19,14 @@ use crate::study::{crops, ink};
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
-        "A thing that moves away uncovers what the update never showed. Each fill below makes something up for it; every figure is \
-         over those cells alone."
+        "A thing that moves away uncovers what the update never showed. Each fill below makes something up for it; unless it says \
+         otherwise, a figure is over those cells alone."
             .to_owned(),
     ];
     let mut facts = document.facts();
     facts.extend(document.extra.fovea.map(|radius| ("Fovea".to_owned(), format!("{radius} px, not judged"))));
     let main = html! {
-        (page::reading(&format!("{READING}<li>{}</li>", Text(measures::LEGEND))))
+        (page::reading(&format!("{READING}<li>{}</li>", measures::reading().into_string())))
         @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
         (foot(document))
     };

@@ -91,8 +91,6 @@ impl super::Study for Plan {
     type Report = SourceReport;
     type Extra = Extra;
 
-    const LEGENDS: &'static [&'static str] = &[columns::LEGEND];
-
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
     }
@@ -111,6 +109,10 @@ impl super::Study for Plan {
             Study::NothingHidden => Found::Nothing(Nothing::Hidden),
             Study::Compared(report) => Found::Report(*report),
         })
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
