@@ -154,16 +154,8 @@ fn a_point_has_the_measures_of_a_run() {
     let folder = folder();
     let marbles = marbles().display().to_string();
     for (source, frames) in [("crossing", "8"), (&*marbles, "16")] {
-        let arguments = [
-            "error",
-            source,
-            "--quick",
-            "--frames",
-            frames,
-            "--scheme=map,source",
-            "--rungs=hold,bullet,extend",
-            "--json",
-        ];
+        let few = ["--quick", "--lanes=full", "--roundings=low-discrepancy", "--rungs=hold,bullet,extend"];
+        let arguments = [&["error", source, "--frames", frames, "--scheme=map,source", "--json"][..], &few].concat();
         let document = json(folder.path(), &arguments);
         let points = document["sources"][0]["points"].as_array().unwrap();
         let pictures = |point: &Value| -> Vec<(usize, Value)> {
