@@ -90,11 +90,12 @@ fn one_document_and_only_the_fills_that_were_asked_for() {
 fn a_row_has_the_measures_of_a_run() {
     let folder = folder();
     let marbles = marbles().display().to_string();
-    for (source, frames) in [("crossing", "3"), (&*marbles, "2")] {
+    for (source, frames) in [("near-plane", "3"), (&*marbles, "5")] {
         let run = |scheme: &str, fill: &str| {
             let report =
                 json(folder.path(), &["run", source, "--frames", frames, "--scheme", scheme, "--fill", fill, "--json"]);
-            report["frames"].as_array().unwrap().iter().map(|frame| frame["truth"].clone()).collect::<Vec<_>>()
+            let truths = report["frames"].as_array().unwrap().iter().map(|frame| frame["truth"].clone());
+            truths.filter(Value::is_object).collect::<Vec<_>>()
         };
         let arguments = [
             "fills",
