@@ -44,5 +44,5 @@ pub fn columns() -> Vec<Column<SceneReport>> {
 }
 
 /// What the columns are.
-pub const LEGEND: &str = "dB: means over the frames whose truth is known, as all that is held against it. worst px: from the exact second-order path, bounded by bound px; \
+pub const LEGEND: &str = "dB, change, judder, missing: means over the frames whose truth is known. worst px: from the exact second-order path, bounded by bound px; \
 truth px: from the true motion. x const: time of a constant-time frame / of a data-dependent one.";
