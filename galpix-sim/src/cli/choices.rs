@@ -89,6 +89,12 @@ impl From<SchemeChoice> for Scheme {
     }
 }
 
+/// Returns each of some schemes once, the map first.
+pub fn schemes(choices: &[SchemeChoice]) -> Vec<Scheme> {
+    let chosen = |scheme: &Scheme| choices.iter().any(|&choice| Scheme::from(choice) == *scheme);
+    [Scheme::Map, Scheme::Source].into_iter().filter(chosen).collect()
+}
+
 /// What a pixel shows of the galpixels around it.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum ScanOutChoice {
@@ -244,11 +250,7 @@ impl Extrapolation {
         let fill = fill.unwrap_or_else(|| scheme.fill());
         if scheme == Scheme::Source {
             if !scheme.takes(fill) {
-                let sentence = format!(
-                    "`--fill {}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull",
-                    fill.name()
-                );
-                return Err(CliError::unusable(sentence));
+                return Err(not_of_sources("--fill", fill.name()));
             }
             if self.reach != 1 {
                 let sentence = "`--reach` is for `--scheme map`: stationary sources close cracks without rounds";
@@ -270,6 +272,13 @@ impl Extrapolation {
             strategy: Strategy::ONE,
         })
     }
+}
+
+/// Returns the error of fills that stationary sources do not have, as they were given.
+pub fn not_of_sources(option: &str, fills: &str) -> CliError {
+    CliError::unusable(format!(
+        "`{option} {fills}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull"
+    ))
 }
 
 /// Returns a positive number of pixels.

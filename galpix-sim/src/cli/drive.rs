@@ -70,8 +70,8 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
         extra: study.extra(&silent),
         sources: reports,
     };
-    if let (Some(legend), false) = (S::LEGEND, to.json) {
-        print(legend)?;
+    if !to.json {
+        study.legends().iter().try_for_each(|legend| print(legend))?;
     }
     publish(study, &document, to)?;
     Ok(study.verdict(&document)?)

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use galpix_core::{FillMode, Rounding};
 
-use super::choices::{AccelerationChoice, FillChoice, Inpainting, RoundingChoice, part};
+use super::choices::{
+    AccelerationChoice, FillChoice, Inpainting, RoundingChoice, SchemeChoice, not_of_sources, part, schemes,
+};
 use super::drive::{Publication, drive};
 use super::{CliError, call};
 use crate::engine::fill::Fill;
@@ -65,6 +67,9 @@ pub struct Error {
     /// Fill modes to choose from [default: all that do not inpaint]
     #[arg(long = "rungs", value_enum, value_name = "MODES", value_delimiter = ',')]
     fills: Vec<FillChoice>,
+    /// How galpixels move: the same points for each scheme, with the fill modes that it takes
+    #[arg(long, value_enum, value_name = "SCHEMES", value_delimiter = ',', default_value = "map")]
+    scheme: Vec<SchemeChoice>,
     #[command(flatten)]
     inpainting: Inpainting,
     /// Frames to extrapolate [default: what the source is meant for]
@@ -97,8 +102,13 @@ pub struct Error {
 impl Error {
     /// Measures the sources and writes the report.
     pub fn run(&self) -> Result<(), CliError> {
+        let plan = self.plan();
+        if !plan.fills.iter().any(|&fill| plan.schemes.iter().any(|scheme| scheme.takes(fill))) {
+            let names: Vec<&str> = plan.fills.iter().map(|fill| fill.name()).collect();
+            return Err(not_of_sources("--rungs", &names.join(",")));
+        }
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        drive(&self.plan(), &sources, &Publication::usual(self.out.as_ref(), self.json, "error"))
+        drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "error"))
     }
 
     fn plan(&self) -> Plan {
@@ -130,6 +140,7 @@ impl Error {
             kept: all(kept.is_empty()).map_or(kept, |()| Kept::ALL.to_vec()),
             roundings: all(roundings.is_empty()).map_or(roundings, |()| Rounding::ALL.to_vec()),
             fills: all(fills.is_empty()).map_or(fills, |()| FillMode::ALL.map(Fill::from).to_vec()),
+            schemes: schemes(&self.scheme),
             extent,
         }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::choices::{AccelerationChoice, Inpainting};
+use super::choices::{AccelerationChoice, Inpainting, SchemeChoice, not_of_sources, schemes};
 use super::drive::{Publication, drive};
 use super::{CliError, call, printable};
 use crate::engine::fill::Gamma;
@@ -23,6 +23,9 @@ pub struct Fills {
     /// metamer]
     #[arg(long, value_name = "FILLS", value_delimiter = ',')]
     fills: Vec<String>,
+    /// How galpixels move: a row of each fill for each scheme that takes it
+    #[arg(long, value_enum, value_name = "SCHEMES", value_delimiter = ',', default_value = "map")]
+    scheme: Vec<SchemeChoice>,
     #[command(flatten)]
     inpainting: Inpainting,
     /// Frames to extrapolate [default: what the source is meant for]
@@ -57,7 +60,11 @@ impl Fills {
         }
         let wanted = |case: &Case| self.fills.is_empty() || self.fills.iter().any(|name| name == case.name);
         cases.retain(wanted);
+        let (cases, left_out) = case::in_schemes(&cases, &schemes(&self.scheme));
+        if cases.is_empty() {
+            return Err(not_of_sources("--fills", &self.fills.join(",")));
+        }
         let request = Request { frames: self.frames, ..Request::default() };
-        Ok(Plan { request, cases, fovea: self.inpainting.fovea })
+        Ok(Plan { request, cases, left_out, fovea: self.inpainting.fovea })
     }
 }

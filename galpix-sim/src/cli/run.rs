@@ -8,6 +8,7 @@ use super::choices::Extrapolation;
 use super::hidden::HiddenArguments;
 use super::{CliError, note, print, print_json, printable, progress};
 use crate::output::column::{Column, Table, Value};
+use crate::output::measures;
 use crate::output::save::file_name;
 use crate::source::Source;
 use crate::study::job::{Job, Request};
@@ -58,29 +59,28 @@ impl Run {
     }
 }
 
-fn columns() -> [Column<FrameReport>; 16] {
+fn columns() -> Vec<Column<FrameReport>> {
     fn truth<V: Into<Value>>(frame: &FrameReport, of: fn(TruthReport) -> V) -> Value {
         frame.truth.map(of).into()
     }
     let column = Column::<FrameReport>::new;
-    [
+    let mut columns = vec![
         column(|frame| frame.frame.into()).terminal("frame", 0),
         column(|frame| truth(frame, |truth| truth.psnr_db)).terminal("psnr dB", 2),
         column(|frame| truth(frame, |truth| truth.psnr_hold_db)).terminal("hold", 2),
         column(|frame| truth(frame, |truth| truth.psnr_known_db)).terminal("known", 2),
-        column(|frame| truth(frame, |truth| truth.psnr_inside_db)).terminal("inside", 2),
         column(|frame| truth(frame, |truth| truth.ssim)).terminal("ssim", 4),
         column(|frame| truth(frame, |truth| truth.flip)).terminal("flip", 4),
-        column(|frame| truth(frame, |truth| truth.missing)).terminal("missing", 0),
-        column(|frame| truth(frame, |truth| truth.missing_at_border)).terminal("border", 0),
-        column(|frame| truth(frame, |truth| truth.change.and_then(|change| change.error))).terminal("change", 2),
-        column(|frame| truth(frame, |truth| truth.change.and_then(|change| change.judder_px))).terminal("judder", 3),
+    ];
+    columns.extend(measures::columns());
+    columns.extend([
         column(|frame| frame.holes.into()).terminal("holes", 0),
         column(|frame| frame.bullets.into()).terminal("bullets", 0),
         column(|frame| frame.lost.into()).terminal("lost", 0),
         column(|frame| frame.collided.into()).terminal("collided", 0),
         column(|frame| frame.position.map(|position| position.worst_px).into()).terminal("worst px", 4),
-    ]
+    ]);
+    columns
 }
 
 fn table(report: &RunReport) -> String {

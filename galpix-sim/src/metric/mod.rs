@@ -15,6 +15,7 @@
 
 pub mod area;
 mod local;
+pub mod measures;
 mod plane;
 mod ssim;
 mod ssimulacra;

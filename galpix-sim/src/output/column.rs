@@ -260,6 +260,12 @@ impl<'c, R> Table<'c, R> {
     }
 }
 
+/// Returns the title and the content of each cell of a row of a page.
+pub fn cells<R>(columns: &[Column<R>], row: &R) -> Vec<(&'static str, Markup)> {
+    let shown = columns.iter().filter_map(|column| Some((column, column.page?)));
+    shown.map(|(column, heading)| (heading.title, PreEscaped(column.on_page(row, heading.digits)))).collect()
+}
+
 /// Returns a table of a page, with a class for the style sheet.
 pub fn html<R>(class: &str, columns: &[Column<R>], rows: &[R]) -> Markup {
     let shown: Vec<(&Column<R>, Heading)> = columns.iter().filter_map(|column| Some((column, column.page?))).collect();

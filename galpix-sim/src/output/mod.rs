@@ -3,6 +3,7 @@
 pub mod column;
 pub mod film;
 pub mod html;
+pub mod measures;
 pub mod save;
 
 /// Returns a number with so many digits after the point, or a dash.

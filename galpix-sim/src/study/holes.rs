@@ -4,8 +4,10 @@
 
 use galpix_core::FillMode;
 
+use super::cells::Cells;
 use super::job::{ExperimentError, Job};
 use super::run;
+use crate::engine::Scheme;
 use crate::engine::fill::in_fovea;
 use crate::metric::area::{self, Window};
 use crate::picture::Picture;
@@ -19,29 +21,24 @@ pub struct Holes {
     pub truth: Picture,
     /// All cells that nothing reached and that the truth counts.
     pub all: Vec<bool>,
-    /// Of these, the disoccluded ones: not connected with the border, and outside of the fovea.
+    /// Of these, those connected with the border.
+    pub at_border: Vec<bool>,
+    /// The other ones that are judged, the disoccluded ones: not connected with the border, and outside of the fovea.
     pub disoccluded: Vec<bool>,
     /// The warped picture: the cells that nothing reached are black.
     pub warped: Picture,
 }
 
-/// Returns how many cells are set.
-#[must_use]
-pub fn count(cells: &[bool]) -> u64 {
-    cells.iter().filter(|&&set| set).count() as u64
-}
-
 impl Holes {
     fn new(frame: u32, truth: &Truth, warped: &Picture, reached: &[bool], fovea: Option<u32>) -> Self {
         let (width, height) = (warped.width, warped.height);
-        let counts = |cell: usize| truth.mask.as_ref().is_none_or(|mask| mask[cell]);
-        let all: Vec<bool> = (0..reached.len()).map(|cell| !reached[cell] && counts(cell)).collect();
-        let at_border = area::at_border(&all, width, height);
+        let cells = Cells::of(truth, reached);
+        let (at_border, all) = (cells.at_border(), cells.missing);
         let disoccluded =
             (0..all.len()).map(|cell| all[cell] && !at_border[cell] && !in_fovea(fovea, cell, width, height)).collect();
         let pixels = warped.pixels.iter().zip(reached).map(|(&pixel, &reached)| if reached { pixel } else { [0; 3] });
         let warped = Picture { width, height, pixels: pixels.collect() };
-        Self { frame, truth: truth.picture.clone(), all, disoccluded, warped }
+        Self { frame, truth: truth.picture.clone(), all, at_border, disoccluded, warped }
     }
 
     /// Returns the largest connected disoccluded area: its cells and the window around them.
@@ -54,12 +51,14 @@ impl Holes {
     }
 }
 
-/// Returns the frames of a job with a truth, as the warp of the first layer alone leaves them.
+/// Returns the frames of a job with a truth, as the warp of the first layer alone leaves them in a map, whatever the
+/// job's scheme: what is judged is the same for all.
 ///
 /// *Errors:* a map that does not fit.
 pub fn of(job: &Job<'_>, fovea: Option<u32>) -> Result<Vec<Holes>, ExperimentError> {
     let mut frames = Vec::new();
-    run::job(&job.with_fill(FillMode::None.into()).without_perception(), |shown| {
+    let warp = job.with_scheme(Scheme::Map).with_fill(FillMode::None.into()).without_perception();
+    run::job(&warp, |shown| {
         if let (Some(truth), true) = (shown.truth, shown.frame > 0) {
             frames.push(Holes::new(shown.frame, truth, shown.picture, shown.reached, fovea));
         }

@@ -6,9 +6,10 @@
 //! ```
 //!
 //! A [`Study`] defines what is particular to it; the driver of the command line opens the sources, shows progress,
-//! prints and writes. No study imports another: what several of them use is in [`crops`], [`holes`], [`ink`], [`job`],
-//! [`run`] and [`timing`].
+//! prints and writes. No study imports another: what several of them use is in [`cells`], [`crops`], [`holes`],
+//! [`ink`], [`job`], [`run`] and [`timing`].
 
+pub mod cells;
 pub mod crops;
 pub mod ddoc;
 pub mod demo;
@@ -171,8 +172,6 @@ pub trait Study {
     /// What is reported besides the sources.
     type Extra: Serialize;
 
-    /// The legend of its tables, printed at the end.
-    const LEGEND: Option<&'static str> = None;
     /// Whether the duration of the study is reported.
     const SECONDS: bool = true;
     /// Where the path of its last file is printed.
@@ -197,6 +196,11 @@ pub trait Study {
     /// Returns what the terminal shows before the first source.
     fn head(&self) -> Option<String> {
         None
+    }
+
+    /// Returns the legends of its tables, printed at the end.
+    fn legends(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// Returns what the terminal shows for a source.

@@ -13,7 +13,7 @@ use galpix_core::{Controller, Format, Galpixmap, Grid, Margin, Scratch, Settings
 use serde::Serialize;
 
 use crate::engine::fill::{Inpaint, Inpainter};
-use crate::engine::{load, margin};
+use crate::engine::{self, EngineError, HiddenLayer, grid, load, margin};
 use crate::metric::stats::median;
 use crate::update::Update;
 
@@ -119,6 +119,55 @@ impl<F: Format> Contender for Engine<F> {
         }
         std::mem::swap(&mut self.front, &mut self.back);
         self.frame = self.frame.wrapping_add(1);
+    }
+}
+
+/// An engine that makes all frames of a turn by itself: with hidden layers, or of stationary sources, whose picture is
+/// part of a frame.
+pub struct Whole<'u> {
+    engine: engine::Engine,
+    update: &'u Update,
+    hidden: Vec<HiddenLayer<'u>>,
+    bytes: usize,
+}
+
+impl<'u> Whole<'u> {
+    /// Makes a contender over an update and its hidden layers; its bytes are those of a map of `format`.
+    ///
+    /// *Errors:* a map that does not fit.
+    pub fn new(
+        engine: engine::Engine,
+        format: impl Format,
+        update: &'u Update,
+        hidden: Vec<HiddenLayer<'u>>,
+    ) -> Result<Self, EngineError> {
+        let mut starts = vec![0; Grid::rows(update.display_height() as u32, margin(update.margin))];
+        let bytes = 4 * Galpixmap::words(&grid(update, &mut starts)?, format);
+        Ok(Self { engine, update, hidden, bytes })
+    }
+}
+
+impl Contender for Whole<'_> {
+    fn bytes(&self) -> usize {
+        self.bytes
+    }
+
+    /// Each turn begins with the update.
+    fn restart(&mut self, _update: &Update) {}
+
+    fn step(&mut self) {
+        self.times(1);
+    }
+
+    fn times(&mut self, frames: u32) -> Vec<f64> {
+        let mut times = Vec::with_capacity(frames as usize);
+        let ran = self.engine.run_layers(self.update, &self.hidden, frames, |frame| {
+            if frame.number > 0 {
+                times.push(frame.time.as_secs_f64());
+            }
+        });
+        // What ran when errors were measured runs again.
+        if ran.is_ok() { times } else { Vec::new() }
     }
 }
 

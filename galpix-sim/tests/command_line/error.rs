@@ -59,6 +59,9 @@ fn page_values_and_document_say_the_same() {
             ("worst_px", &point["summary"]["worst_px"]),
             ("bound_px", &point["summary"]["bound_px"]),
             ("flip", &point["summary"]["flip"]),
+            ("psnr_inside_db", &point["summary"]["psnr_inside_db"]),
+            ("change_error", &point["summary"]["change_error"]),
+            ("judder_px", &point["summary"]["judder_px"]),
             ("missing_percent", &point["summary"]["missing_percent"]),
         ] {
             same(row[column(name)], value, &format!("{name} of {}", point["id"]));
@@ -70,6 +73,8 @@ fn page_values_and_document_say_the_same() {
     let hold = rows.last().unwrap();
     assert_eq!((hold.len(), hold[column("scheme")]), (columns.len(), "hold"));
     same(hold[column("flip")], &source["hold"]["flip"], "sample-and-hold");
+    same(hold[column("psnr_inside_db")], &source["hold"]["psnr_inside_db"], "sample-and-hold");
+    assert!(source["hold"]["psnr_inside_db"].is_f64() && source["hold"]["missing_percent"].is_null());
     assert_eq!(hold[column("saturated")], "");
 
     // The page: needs nothing else, and has a row for each point and for each place on a front.
@@ -142,6 +147,51 @@ fn points_are_what_was_asked_for_and_fronts_are_not_beaten() {
     }
 }
 
+/// The point of the derived budget has what `galpix run` says of the same frames, in each scheme; what is inside is the
+/// same for all points.
+#[test]
+fn a_point_has_the_measures_of_a_run() {
+    let folder = folder();
+    let marbles = marbles().display().to_string();
+    for (source, frames) in [("crossing", "8"), (&*marbles, "16")] {
+        let few = ["--quick", "--lanes=full", "--roundings=low-discrepancy", "--rungs=hold,bullet,extend"];
+        let arguments = [&["error", source, "--frames", frames, "--scheme=map,source", "--json"][..], &few].concat();
+        let document = json(folder.path(), &arguments);
+        let points = document["sources"][0]["points"].as_array().unwrap();
+        let pictures = |point: &Value| -> Vec<(usize, Value)> {
+            let frames = point["frames"].as_array().unwrap().iter().filter(|frame| frame["picture"].is_object());
+            frames.map(|frame| (frame["frame"].as_u64().unwrap() as usize, frame["picture"].clone())).collect()
+        };
+        let inside =
+            |point: &Value| pictures(point).into_iter().map(|(_, truth)| truth["inside"].as_u64()).collect::<Vec<_>>();
+        for (name, scheme) in [("galpix", "map"), ("source", "source")] {
+            let arguments = ["run", source, "--frames", frames, "--scheme", scheme, "--fill", "extend", "--json"];
+            let run = json(folder.path(), &arguments);
+            let derived = |point: &&Value| {
+                [("scheme", name), ("budget", "derived"), ("rounding", "low-discrepancy"), ("rung", "extend")]
+                    .iter()
+                    .all(|(key, value)| point[key] == *value)
+                    && point["lanes"] == "full"
+            };
+            let point = points.iter().find(derived).expect("the derived budget");
+            let pictures = pictures(point);
+            assert!(pictures.iter().any(|(_, truth)| truth["change"]["judder_px"].is_f64()), "{source}");
+            for (frame, truth) in pictures {
+                assert_eq!(truth, run["frames"][frame - 1]["truth"], "{source} {scheme} frame {frame}");
+            }
+        }
+        let same_for_all = inside(&points[0]);
+        assert!(same_for_all.iter().flatten().count() > 1 && points.iter().all(|point| inside(point) == same_for_all));
+        let of_sources = |key: &str, value: &str| points.iter().any(|p| p["scheme"] == "source" && p[key] == value);
+        assert!(of_sources("rung", "hold") && !of_sources("rung", "bullet"));
+        for point in points.iter().filter(|point| point["scheme"] == "source") {
+            assert!(point["run_time"]["x_copy"].as_f64().unwrap() > 0.0 && point["compile_time"].is_null());
+            let worst = point["summary"]["worst_px"].as_f64().unwrap();
+            assert!(source != "crossing" || worst <= point["summary"]["bound_px"].as_f64().unwrap() + 1e-6, "{point}");
+        }
+    }
+}
+
 #[test]
 fn inpainting_is_a_fill_that_can_be_asked_for() {
     let folder = folder();
@@ -210,6 +260,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--extent", "0"], &["this budget cannot exist"]),
         (&["crossing", "--extent", "4000000000"], &["this budget cannot exist"]),
         (&["crossing", "--rungs", "paint"], &["paint"]),
+        (&["crossing", "--scheme", "source", "--rungs", "bullet"], &["--rungs bullet", "push-pull"]),
         (&["crossing", "--lanes", "wheels"], &["wheels"]),
         (&["crossing", "--quick", "--full"], &["cannot be used with"]),
         (&["crossing", "--quick", "--out", "file/below"], &["cannot be written", "--out"]),

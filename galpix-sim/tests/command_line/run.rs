@@ -50,7 +50,8 @@ fn assert_report(report: &Value, frames: usize) {
         for key in ["psnr_db", "psnr_hold_db", "psnr_known_db", "psnr_inside_db", "ssim", "flip"] {
             assert!(is_number(&truth[key]), "frame {number}, {key}: {}", truth[key]);
         }
-        for key in ["missing", "missing_at_border"] {
+        assert!(is_number(&truth["missing_percent"]), "frame {number}: {}", truth["missing_percent"]);
+        for key in ["missing", "missing_at_border", "inside"] {
             assert!(truth[key].is_u64(), "frame {number}, {key}: {}", truth[key]);
         }
         // A change is against the frame before: the first one has no displacement to compare.

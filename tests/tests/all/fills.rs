@@ -11,7 +11,8 @@ use galpix_sim::study::run::Request;
 fn compared(name: &str, frames: u32, fills: &[&str], gamma: Option<Gamma>, fovea: Option<u32>) -> SourceReport {
     let mut cases = case::all(gamma, fovea);
     cases.retain(|case| fills.is_empty() || fills.contains(&case.name));
-    let plan = Plan { request: Request { frames: Some(frames), ..Request::default() }, cases, fovea };
+    let plan =
+        Plan { request: Request { frames: Some(frames), ..Request::default() }, cases, left_out: Vec::new(), fovea };
     let source = Source::open(name, &ImportOptions::default()).unwrap();
     study(&source, &plan, None, || {}).unwrap().expect("something is disoccluded")
 }
@@ -79,6 +80,6 @@ fn a_fovea_is_neither_inpainted_nor_judged() {
 fn nothing_is_compared_where_nothing_is_disoccluded() {
     let source = Source::open("still", &ImportOptions::default()).unwrap();
     let request = Request { frames: Some(2), ..Request::default() };
-    let plan = Plan { request, cases: case::all(None, None), fovea: None };
+    let plan = Plan { request, cases: case::all(None, None), left_out: Vec::new(), fovea: None };
     assert!(study(&source, &plan, None, || panic!("no fill is run")).unwrap().is_none());
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use galpix_core::{Demand, Dynamic, FillMode, Format, Rounding, Settings};
 use galpix_sim::certificate::Certificate;
-use galpix_sim::engine::Engine;
+use galpix_sim::engine::{Engine, Scheme};
 use galpix_sim::source::Source;
 use galpix_sim::source::capture::ImportOptions;
 use galpix_sim::source::scene;
@@ -36,8 +36,7 @@ struct Checked {
 
 /// Holds a source against the certificate, in fields and steps of the budget that other tests do not run.
 fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) {
-    let mut reference = Reference::new(source, frames);
-    reference.truths.clear();
+    let reference = Reference::new(source, frames);
     let demand = demand(&reference);
     let ranges = Ranges::of(&reference.update, frames);
     let coarse = Step { position: -2, motion: -2, fitted: true };
@@ -53,7 +52,8 @@ fn hold_to_the_certificate(source: &Source, frames: u32, checked: &mut Checked) 
         let record = format.record();
         let settings =
             Settings { rounding, fill_mode: FillMode::Hold, ..Settings::for_depth(u32::from(record.depth().bits)) };
-        let configuration = Configuration { kept, step, rounding, fill: FillMode::Hold.into() };
+        let (fill, scheme) = (FillMode::Hold.into(), Scheme::Map);
+        let configuration = Configuration { kept, step, rounding, fill, scheme };
         let certificate = Certificate::of(&record.scales[0], layout.acceleration, rounding, demand.prop);
         let measured = measure::engine(&reference, &configuration, bits, settings).unwrap();
         assert_eq!(measured.frames.len(), reference.looked.len());

@@ -24,7 +24,8 @@ fn quality(story: &Story) -> Markup {
     let lines = vec![
         line(story, "sample-and-hold", Ink::Hold, Stroke::Solid, |row| row.psnr_hold_db),
         line(story, "galpix, cells reached", Ink::Known, Stroke::Dashed, |row| row.psnr_known_db),
-        line(story, "galpix", Ink::Galpix, Stroke::Solid, |row| row.psnr_db),
+        line(story, "galpix, inside", Ink::Filled, Stroke::Dashed, |row| row.measures.psnr_inside_db),
+        line(story, "galpix", Ink::Galpix, Stroke::Solid, |row| row.measures.psnr_db),
     ];
     let mut remark = "Likeness to the truth: higher is better.".to_owned();
     let capped = |line: &Line| line.points.iter().any(|&(_, value)| value.is_some_and(|value| value >= PSNR_CAP_DB));

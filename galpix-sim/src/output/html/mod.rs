@@ -22,6 +22,7 @@ pub(crate) mod style;
 pub(crate) mod text;
 
 pub use super::save::write_atomically;
+use crate::metric::measures::Measures;
 pub(crate) use overview::cell;
 pub(crate) use page::line_key;
 pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
@@ -87,11 +88,11 @@ pub struct CertificateLine {
 pub struct Row {
     /// Display frames after the update.
     pub frame: u32,
-    /// Shown frame against the truth, decibels.
-    pub psnr_db: Option<f64>,
+    /// Shown frame against the truth.
+    pub measures: Measures,
     /// Sample-and-hold against the truth, decibels.
     pub psnr_hold_db: Option<f64>,
-    /// As `psnr_db`, over the cells that a galpixel reached.
+    /// Shown frame against the truth, decibels, over the cells that a galpixel reached.
     pub psnr_known_db: Option<f64>,
     /// Worst measured position error of a galpixel against the exact second-order path, pixels.
     pub position_error_px: Option<f64>,

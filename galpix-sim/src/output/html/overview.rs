@@ -4,7 +4,10 @@ use maud::{Markup, html};
 
 use super::text::{Text, anchor, figure, signed};
 use super::{CertificateLine, Report, Row, Story};
+use crate::metric::measures::Measures;
 use crate::metric::stats::{mean, median};
+use crate::output::column;
+use crate::output::measures::{self, Measured};
 
 /// How measured position errors lie to the certified bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,8 +23,8 @@ pub enum Standing {
 pub struct Summary {
     /// The last frame.
     pub frame: Option<u32>,
-    /// PSNR of galpix, mean over the frames that were compared with a truth.
-    pub psnr_db: Option<f64>,
+    /// Means over the frames that were compared with a truth.
+    pub measures: Measures,
     /// PSNR of sample-and-hold, mean over the same frames.
     pub psnr_hold_db: Option<f64>,
     /// The difference of the two.
@@ -32,8 +35,6 @@ pub struct Summary {
     pub bound_px: Option<f64>,
     /// How the measured errors lie to the bound, where both are known.
     pub standing: Option<Standing>,
-    /// Share of the display that was holes before filling, mean over the frames, per cent.
-    pub holes_percent: Option<f64>,
     /// The median over the frames.
     pub ns_per_galpixel: Option<f64>,
 }
@@ -41,20 +42,17 @@ pub struct Summary {
 impl Summary {
     /// Of a whole story.
     pub fn of(story: &Story) -> Self {
-        let psnr_db = mean(finite(story, |row| row.psnr_db));
+        let measures = Measures::mean(story.rows.iter().map(|row| row.measures));
         let psnr_hold_db = mean(finite(story, |row| row.psnr_hold_db));
         let (worst_px, standing) = against_bound(story);
-        let cells = story.width as f64 * story.height as f64;
         Self {
             frame: story.rows.last().map(|row| row.frame),
-            psnr_db,
+            measures,
             psnr_hold_db,
-            gain_db: psnr_db.zip(psnr_hold_db).map(|(galpix, hold)| galpix - hold),
+            gain_db: measures.psnr_db.zip(psnr_hold_db).map(|(galpix, hold)| galpix - hold),
             worst_px,
             bound_px: story.certificate.as_ref().map(|certificate| certificate.total_px),
             standing,
-            holes_percent: mean(story.rows.iter().map(|row| 100.0 * row.holes as f64 / cells))
-                .filter(|share| share.is_finite()),
             ns_per_galpixel: median(finite(story, |row| row.ns_per_galpixel).collect()),
         }
     }
@@ -97,6 +95,7 @@ fn finite(story: &Story, column: impl Fn(&Row) -> Option<f64>) -> impl Iterator<
 pub fn overview(report: &Report) -> Markup {
     let summaries: Vec<_> = report.stories.iter().map(Summary::of).collect();
     let widest = summaries.iter().filter_map(|s| s.gain_db).map(f64::abs).filter(|g| g.is_finite()).fold(0.0, f64::max);
+    let columns = measures::columns::<Summary>();
     html! {
         section id="overview" {
             h2 { "Overview" }
@@ -105,28 +104,48 @@ pub fn overview(report: &Report) -> Markup {
             } @else {
                 div.wide {
                     table.overview {
-                        thead { tr { th { "scene" } @for name in NAMES { th { (name) } } } }
+                        thead {
+                            tr {
+                                th { "scene" }
+                                @for name in COMPARED { th { (name) } }
+                                @for (name, _) in column::cells(&columns, &Summary::default()) { th { (name) } }
+                                @for name in FURTHER { th { (name) } }
+                            }
+                        }
                         tbody {
                             @for ((index, story), summary) in report.stories.iter().enumerate().zip(&summaries) {
-                                (line(index, story, summary, widest))
+                                (line(&link(index, story), summary, &column::cells(&columns, summary), widest))
                             }
                         }
                     }
                 }
                 p.remark {
-                    "PSNR against the truth and holes before filling: means over the frames. Position error: the worst, against \
-                     the exact second-order path, before the snap. Time: the median of all frames."
+                    "PSNR against the truth, and the measures after it: means over the frames. Position error: the worst, against \
+                     the exact second-order path, before the snap. Time: the median of all frames. "
+                    (measures::reading())
                 }
             }
         }
     }
 }
 
-/// The columns after the scene's name.
-const NAMES: [&str; 7] =
-    ["frames", "galpix", "sample-and-hold", "gain", "worst position error", "holes", "ns a galpixel"];
+/// The columns after the scene's name, before the measures that every table has.
+const COMPARED: [&str; 4] = ["frames", "galpix", "sample-and-hold", "gain"];
 
-fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> Markup {
+/// Those after them.
+const FURTHER: [&str; 2] = ["worst position error", "ns a galpixel"];
+
+impl Measured for Summary {
+    fn measures(&self) -> Measures {
+        self.measures
+    }
+}
+
+fn link(index: usize, story: &Story) -> Markup {
+    html! { a href={ "#" (anchor(index, &story.name)) } { (Text(&story.name)) } }
+}
+
+fn line(link: &Markup, summary: &Summary, measures: &[(&str, Markup)], widest_gain: f64) -> Markup {
     let frame = summary.frame.map_or_else(|| figure(None, 0), |frame| frame.to_string());
     let bound = html! {
         @match (summary.bound_px, summary.standing) {
@@ -138,13 +157,13 @@ fn line(index: usize, story: &Story, summary: &Summary, widest_gain: f64) -> Mar
     };
     html! {
         tr {
-            th scope="row" { a href={ "#" (anchor(index, &story.name)) } { (Text(&story.name)) } }
+            th scope="row" { (link) }
             (cell("frame", &html! { (frame) }))
-            (cell("galpix", &unit(summary.psnr_db, 1, "dB")))
+            (cell("galpix", &unit(summary.measures.psnr_db, 1, "dB")))
             (cell("sample-and-hold", &unit(summary.psnr_hold_db, 1, "dB")))
             (cell("gain", &gain(summary.gain_db, widest_gain)))
+            @for (name, content) in measures { (cell(name, content)) }
             (cell("worst position error", &html! { (unit(summary.worst_px, 2, "px")) (bound) }))
-            (cell("holes", &unit(summary.holes_percent, 1, "%")))
             (cell("ns a galpixel", &html! { (figure(summary.ns_per_galpixel, 1)) }))
         }
     }

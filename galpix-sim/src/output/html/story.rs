@@ -9,7 +9,9 @@ use super::overview::{Standing, Summary};
 use super::page::list;
 use super::text::{Text, anchor, figure};
 use super::{CertificateLine, Row, Story};
+use crate::metric::measures::Measures;
 use crate::output::column::{self, Column};
+use crate::output::measures::{self, Measured};
 
 /// Returns the story as a section; `index` counts from 0.
 pub fn section(index: usize, story: &Story) -> Markup {
@@ -89,12 +91,21 @@ fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
     }
 }
 
-fn columns() -> [Column<Row>; 15] {
-    [
+impl Measured for Row {
+    fn measures(&self) -> Measures {
+        self.measures
+    }
+}
+
+fn columns() -> Vec<Column<Row>> {
+    let mut columns = vec![
         Column::new(|row: &Row| row.frame.into()).page("frame", 0),
-        Column::new(|row: &Row| row.psnr_db.into()).page("galpix dB", 2),
+        Column::new(|row: &Row| row.measures.psnr_db.into()).page("galpix dB", 2),
         Column::new(|row: &Row| row.psnr_hold_db.into()).page("hold dB", 2),
         Column::new(|row: &Row| row.psnr_known_db.into()).page("reached dB", 2),
+    ];
+    columns.extend(measures::columns());
+    columns.extend([
         Column::new(|row: &Row| row.position_error_px.into()).page("worst px", 3),
         Column::new(|row: &Row| row.mean_position_error_px.into()).page("mean px", 3),
         Column::new(|row: &Row| row.truth_error_px.into()).page("truth px", 3),
@@ -106,7 +117,8 @@ fn columns() -> [Column<Row>; 15] {
         Column::new(|row: &Row| row.collided.into()).page("collided", 0).grouped(),
         Column::new(|row: &Row| row.saturated.into()).page("saturated", 0).grouped(),
         Column::new(|row: &Row| row.ns_per_galpixel.into()).page("ns a galpixel", 2),
-    ]
+    ]);
+    columns
 }
 
 fn table(story: &Story) -> Markup {

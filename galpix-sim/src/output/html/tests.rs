@@ -7,7 +7,13 @@ use super::*;
 fn story(name: &str, frames: u32) -> Story {
     let row = |frame: u32| Row {
         frame,
-        psnr_db: Some(40.0 - f64::from(frame)),
+        measures: Measures {
+            psnr_db: Some(40.0 - f64::from(frame)),
+            psnr_inside_db: Some(41.0),
+            change_error: Some(1.5),
+            judder_px: Some(0.25),
+            missing_percent: Some(5.0 * f64::from(frame)),
+        },
         psnr_hold_db: Some(30.0 - f64::from(frame)),
         psnr_known_db: Some(42.0),
         position_error_px: Some(0.1 * f64::from(frame)),
@@ -102,7 +108,12 @@ fn every_kind_of_report_is_balanced_and_self_contained() {
         ..bare.clone()
     };
     let absurd = Story {
-        rows: vec![Row { frame: u32::MAX, psnr_db: Some(f64::NAN), holes: u64::MAX, ..Row::default() }],
+        rows: vec![Row {
+            frame: u32::MAX,
+            measures: Measures { psnr_db: Some(f64::NAN), missing_percent: Some(f64::INFINITY), ..Measures::default() },
+            holes: u64::MAX,
+            ..Row::default()
+        }],
         film_apng: vec![1, 2, 3],
         ..bare.clone()
     };
@@ -159,6 +170,21 @@ fn a_story_has_its_film_plots_certificate_and_table() {
 }
 
 #[test]
+fn overview_and_table_have_the_measures_that_every_table_has() {
+    let html = html(&report(vec![story("pan", 16)]));
+    for (name, mean, of_frame_2) in [
+        ("inside dB", "41.00", "41.00"),
+        ("change", "1.50", "1.50"),
+        ("judder px", "0.250", "0.250"),
+        ("missing %", "42.50", "10.00"),
+    ] {
+        assert!(html.contains(&format!("<td data-name=\"{name}\"><span>{mean}</span></td>")), "{name}: {mean}");
+        assert_eq!(html.matches(&format!("<th>{name}</th>")).count(), 2, "{name}");
+        assert!(html.contains(&format!("<td>{of_frame_2}</td>")), "{name}: {of_frame_2}");
+    }
+}
+
+#[test]
 fn a_promise_not_kept_is_said() {
     let mut story = story("pan", 4);
     story.certificate = Some(CertificateLine { total_px: 1.46875, holds: false, ..CertificateLine::default() });
@@ -190,11 +216,12 @@ fn the_script_comes_with_films_only() {
 #[test]
 fn a_summary_is_of_the_frames_compared() {
     let mut story = story("pan", 4);
-    (story.rows[3].psnr_db, story.rows[3].psnr_hold_db) = (None, None);
+    (story.rows[3].measures, story.rows[3].psnr_hold_db) = (Measures::default(), None);
     let summary = Summary::of(&story);
-    assert_eq!((summary.frame, summary.psnr_db, summary.psnr_hold_db), (Some(4), Some(38.0), Some(28.0))); // means of 1 to 3
+    // Means of 1 to 3.
+    assert_eq!((summary.frame, summary.measures.psnr_db, summary.psnr_hold_db), (Some(4), Some(38.0), Some(28.0)));
+    assert_eq!((summary.measures.psnr_inside_db, summary.measures.missing_percent), (Some(41.0), Some(10.0)));
     assert_eq!(summary.gain_db, Some(10.0));
-    assert_eq!(summary.holes_percent, Some(12.5)); // mean of 10 to 40 of 20 x 10
     assert_eq!(summary.worst_px, Some(0.4)); // of all frames
     assert_eq!((summary.bound_px, summary.standing), (Some(0.84375), Some(Standing::Inside)));
     assert_eq!(summary.ns_per_galpixel, Some(2.5)); // median of 1, 2, 3, 4

@@ -16,7 +16,7 @@ use serde::Serialize;
 pub use cull::{Culling, culling};
 pub use layer::Layer;
 
-use crate::engine::{EngineError, NO_ORIGIN, Ran};
+use crate::engine::{EngineError, HiddenLayer, NO_ORIGIN, Ran};
 use crate::source::Source;
 use crate::update::Update;
 
@@ -138,6 +138,12 @@ impl HiddenReport {
 }
 
 impl Carried {
+    /// Returns the hidden layers as the engine takes them.
+    #[must_use]
+    pub fn hidden_layers(&self) -> Vec<HiddenLayer<'_>> {
+        self.layers.iter().map(Layer::for_engine).collect()
+    }
+
     /// Returns whether the first layer covered this sample.
     #[must_use]
     pub fn is_hidden(&self, origin: u32) -> bool {

@@ -102,7 +102,6 @@ impl Study for Request {
     type Report = Seen;
     type Extra = NoExtra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
     const SECONDS: bool = false;
 
     fn name<'a>(&self, world: &'a World) -> &'a str {
@@ -125,6 +124,10 @@ impl Study for Request {
 
     fn head(&self) -> Option<String> {
         Some(Table::new(&columns::columns(), &[]).heading())
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned()]
     }
 
     fn text(&self, seen: &Seen) -> String {

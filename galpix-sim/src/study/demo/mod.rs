@@ -13,6 +13,7 @@ use crate::engine::Scheme;
 use crate::output::column::Table;
 use crate::output::film::{self, Colours};
 use crate::output::html::{self, CertificateLine, Report, Row, Story};
+use crate::output::measures::{self, Measured};
 use crate::picture::Picture;
 use crate::source::Source;
 
@@ -49,8 +50,6 @@ impl Study for Plan {
     type Report = Demonstration;
     type Extra = NoExtra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
-
     fn name<'a>(&self, _sources: &'a Vec<Source>) -> &'a str {
         "demo"
     }
@@ -67,6 +66,10 @@ impl Study for Plan {
     fn study(&self, jobs: &Vec<Job<'_>>, stage: &Stage<'_>) -> Result<Found<Demonstration>, StudyError> {
         let scenes = jobs.par_iter().map(|job| report(job, stage.notify)).collect::<Result<_, _>>();
         Ok(Found::Report(Demonstration { scenes: scenes.map_err(StudyError::unusable)? }))
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned(), measures::legend()]
     }
 
     fn text(&self, report: &Demonstration) -> String {
@@ -215,7 +218,7 @@ fn row(frame: &FrameReport) -> Row {
     let truth = frame.truth.as_ref();
     Row {
         frame: frame.frame,
-        psnr_db: truth.and_then(|truth| truth.psnr_db),
+        measures: frame.measures(),
         psnr_hold_db: truth.and_then(|truth| truth.psnr_hold_db),
         psnr_known_db: truth.and_then(|truth| truth.psnr_known_db),
         position_error_px: frame.position.map(|position| position.worst_px),

@@ -14,9 +14,10 @@ use super::design::Configuration;
 use super::measure::apart;
 use super::ranges::Stored;
 use super::reference::{Reference, displacement};
-use crate::engine::{Engine, EngineError};
+use crate::engine::{Engine, EngineError, ScanOut};
 use crate::picture::Picture;
 use crate::source::Source;
+use crate::study::cells::Cells;
 use crate::update::Truth;
 
 /// A frame, by cause. Places in pixels, means over the galpixels of the update that are still there.
@@ -38,8 +39,8 @@ pub struct FrameCauses {
     pub snap_px: f64,
     /// All together: from the true place (where that is not known, from the second-order path) to the cell.
     pub all_px: f64,
-    /// Cells that no galpixel of the update reached, per cent of the display.
-    pub missing_percent: f64,
+    /// Cells that no galpixel of the update reached, per cent of those that the truth counts.
+    pub missing_percent: Option<f64>,
     /// The squared error of the picture in cells that a galpixel reached, as a part of the mean over all cells (code
     /// values²).
     pub mse_reached: Option<f64>,
@@ -64,16 +65,18 @@ pub fn causes(
     let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.frames as usize);
     let mut pairs = Vec::new();
-    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.fill.inpaint());
+    let Configuration { fill, scheme, .. } = *configuration;
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(fill.inpaint());
+    let engine = engine.showing(scheme, scheme.scan_out());
+    let form = Form { layout, bits, snaps: scheme.scan_out() == ScanOut::Nearest };
     engine.run(&reference.update, reference.frames, |frame| {
         if frame.number == 0 {
             return;
         }
-        let mut causes = places(reference, frame.number, layout, bits, frame.places().into_iter());
+        let mut causes = places(reference, frame.number, form, frame.places().into_iter());
         let reached = frame.reached();
-        let missing = reached.iter().filter(|&&reached| !reached).count();
-        causes.missing_percent = 100.0 * missing as f64 / reached.len().max(1) as f64;
         if let Some(truth) = reference.source.truth(frame.number) {
+            causes.missing_percent = Some(Cells::of(&truth, &reached).missing_percent());
             let picture = frame.picture();
             let [there, missing] = squares(&picture, &truth, &reached);
             let [there_hold, missing_hold] = squares(&reference.hold, &truth, &reached);
@@ -89,11 +92,19 @@ pub fn causes(
     Ok((frames, pairs))
 }
 
+/// How galpixels are stored and shown.
+#[derive(Clone, Copy)]
+struct Form {
+    layout: Layout,
+    bits: Bits,
+    /// Whether a galpixel is shown in one cell, wherever in it it is.
+    snaps: bool,
+}
+
 fn places(
     reference: &Reference<'_>,
     frame: u32,
-    layout: Layout,
-    bits: Bits,
+    Form { layout, bits, snaps }: Form,
     places: impl Iterator<Item = (u32, [f64; 2])>,
 ) -> FrameCauses {
     let mut sum = FrameCauses { frame, ..FrameCauses::default() };
@@ -106,8 +117,8 @@ fn places(
         let kept = after(displacement(sample, layout, frame));
         let stored = [0, 1].map(|axis| Stored::of(sample, axis, bits, layout, frame));
         let path = after(stored.map(|stored| stored.displacement(frame)));
-        // The best-fitting cell: halves towards +infinity.
-        let cell = place.map(|coordinate| (coordinate + 0.5).floor());
+        // The best-fitting cell, halves towards +infinity; colours that are resampled are where the galpixel is.
+        let cell = if snaps { place.map(|coordinate| (coordinate + 0.5).floor()) } else { place };
         let truth = reference.track(origin, frame);
         if let Some(truth) = truth {
             *taylor.get_or_insert(0.0) += apart(second_order, truth);

@@ -2,7 +2,9 @@
 
 use super::frames::Summary;
 use super::report::{Point, Scheme, SourceReport};
+use crate::metric::measures::Measures;
 use crate::output::column::{Column, Value};
+use crate::output::measures::{self, Measured};
 use crate::study::timing::Time;
 
 /// A point, or sample-and-hold.
@@ -11,6 +13,12 @@ pub struct Row<'r> {
     /// Its letter in the plots, or its number.
     name: String,
     point: Option<&'r Point>,
+}
+
+impl Measured for Row<'_> {
+    fn measures(&self) -> Measures {
+        self.summary_of().measures
+    }
 }
 
 impl<'r> Row<'r> {
@@ -24,7 +32,11 @@ impl<'r> Row<'r> {
     }
 
     fn summary(&self, of: fn(&Summary) -> Option<f64>) -> Value {
-        of(self.point.map_or(&self.source.hold, |point| &point.summary)).into()
+        of(self.summary_of()).into()
+    }
+
+    fn summary_of(&self) -> &'r Summary {
+        self.point.map_or(&self.source.hold, |point| &point.summary)
     }
 
     fn scheme(&self) -> Value {
@@ -32,6 +44,7 @@ impl<'r> Row<'r> {
         match point.scheme {
             Scheme::Galpix => "galpix".into(),
             Scheme::F32 => "f32".into(),
+            Scheme::Source => "source".into(),
         }
     }
 
@@ -72,6 +85,8 @@ pub fn columns<'r>() -> Vec<Column<Row<'r>>> {
     columns.extend(widths());
     columns.extend(times());
     columns.extend(errors());
+    columns.extend(measures::columns());
+    columns.extend(verdicts());
     columns
 }
 
@@ -81,7 +96,7 @@ fn kinds<'r>() -> [Column<Row<'r>>; 9] {
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
         Column::new(|row: &Row| row.of(|point| point.id)).csv("id").terminal("no", 0),
         Column::new(|row: &Row| row.name.as_str().into()).page("", 0),
-        Column::new(|row: &Row| row.scheme()).csv("scheme"),
+        Column::new(|row: &Row| row.scheme()).csv("scheme").both("scheme", 0).words(),
         Column::new(|row: &Row| row.of(|point| point.fields)).csv("lanes").both("lanes", 0).words(),
         Column::new(|row: &Row| row.of(|point| point.budget.as_str())).csv("budget"),
         Column::new(|row: &Row| row.budget()).both("budget", 0).words(),
@@ -124,7 +139,7 @@ fn times<'r>() -> [Column<Row<'r>>; 7] {
 }
 
 /// Returns the columns of the results of the frames. On the page the mean follows the bound.
-fn errors<'r>() -> [Column<Row<'r>>; 16] {
+fn errors<'r>() -> [Column<Row<'r>>; 11] {
     [
         Column::new(|row: &Row| row.summary(|all| all.worst_px)).csv("worst_px").both("worst px", 4),
         Column::new(|row: &Row| row.summary(|all| all.mean_px)).csv("mean_px"),
@@ -139,14 +154,16 @@ fn errors<'r>() -> [Column<Row<'r>>; 16] {
             .terminal("truth px", 4)
             .page("worst, true motion px", 3),
         Column::new(|row: &Row| row.summary(|all| all.truth_mean_px)).csv("truth_mean_px"),
-        Column::new(|row: &Row| row.summary(|all| all.psnr_db)).csv("psnr_db").terminal("PSNR", 2).page("PSNR dB", 2),
+        Column::new(|row: &Row| row.measures().psnr_db.into()).csv("psnr_db").terminal("PSNR", 2).page("PSNR dB", 2),
         Column::new(|row: &Row| row.summary(|all| all.psnr_known_db)).csv("psnr_known_db"),
         Column::new(|row: &Row| row.summary(|all| all.ssim)).csv("ssim").both("SSIM", 4),
         Column::new(|row: &Row| row.summary(|all| all.flip)).csv("flip").both("FLIP", 4),
-        Column::new(|row: &Row| row.summary(|all| all.missing_percent))
-            .csv("missing_percent")
-            .terminal("missing%", 2)
-            .page("missing %", 1),
+    ]
+}
+
+/// Returns the columns of what was found of the errors.
+fn verdicts<'r>() -> [Column<Row<'r>>; 4] {
+    [
         Column::new(|row: &Row| row.of(|point| point.saturated)).csv("saturated"),
         Column::new(|row: &Row| row.on(&row.source.fronts.position)).csv("front_position"),
         Column::new(|row: &Row| row.on(&row.source.fronts.picture)).csv("front_picture"),

@@ -5,6 +5,7 @@ use galpix_core::record::Component;
 use galpix_core::{Bits, BudgetError, Colour, Demand, FillMode, Layout, Rounding};
 
 use super::ranges::Ranges;
+use crate::engine::Scheme;
 use crate::engine::fill::Fill;
 
 /// Which fields a galpixel carries besides its class and colour.
@@ -130,6 +131,8 @@ pub struct Configuration {
     pub rounding: Rounding,
     /// What is put into holes.
     pub fill: Fill,
+    /// How galpixels move.
+    pub scheme: Scheme,
 }
 
 /// How much is measured.
@@ -155,14 +158,17 @@ pub struct Axes {
     pub roundings: Vec<Rounding>,
     /// Fill modes.
     pub fills: Vec<Fill>,
+    /// Schemes.
+    pub schemes: Vec<Scheme>,
 }
 
 impl Axes {
-    /// Around what one axis at a time is varied: the richest fields and fill mode, and the default rounding where it
-    /// may be chosen.
+    /// Around what one axis at a time is varied: the richest fields, the richest fill mode of the first scheme, and the
+    /// default rounding where it may be chosen.
     #[must_use]
     pub fn middle(&self) -> Configuration {
         let rounding = Rounding::default();
+        let scheme = self.schemes.first().copied().unwrap_or_default();
         Configuration {
             kept: self.kept.last().copied().unwrap_or(Kept::Full),
             step: Step::DERIVED,
@@ -171,11 +177,13 @@ impl Axes {
             } else {
                 self.roundings.last().copied().unwrap_or_default()
             },
-            fill: self.fills.last().copied().unwrap_or_default(),
+            fill: self.fills.iter().rfind(|&&fill| scheme.takes(fill)).copied().unwrap_or_default(),
+            scheme,
         }
     }
 
-    /// Returns the configurations, none twice, the middle first.
+    /// Returns the configurations, none twice, the middle first; those of one scheme after those of the other, without
+    /// the fill modes that it does not take.
     #[must_use]
     pub fn design(&self, extent: Extent) -> Vec<Configuration> {
         let middle = self.middle();
@@ -214,7 +222,11 @@ impl Axes {
         }
         let mut seen = std::collections::HashSet::new();
         chosen.retain(|&configuration| seen.insert(configuration));
-        chosen
+        let in_scheme = |&scheme: &Scheme| {
+            let of_scheme = chosen.iter().map(move |&configuration| Configuration { scheme, ..configuration });
+            of_scheme.filter(move |configuration| scheme.takes(configuration.fill)).collect::<Vec<_>>()
+        };
+        self.schemes.iter().flat_map(in_scheme).collect()
     }
 }
 
@@ -243,6 +255,7 @@ mod tests {
             kept: Kept::ALL[..5].to_vec(),
             roundings: Rounding::ALL.to_vec(),
             fills: FillMode::ALL.map(Fill::from).to_vec(),
+            schemes: vec![Scheme::Map],
         }
     }
 
@@ -262,11 +275,24 @@ mod tests {
     }
 
     #[test]
+    fn a_further_scheme_has_the_same_configurations_as_far_as_it_takes_their_fill() {
+        let both = Axes { schemes: vec![Scheme::Map, Scheme::Source], ..axes() };
+        let (map, design) = (axes().design(Extent::Sensible), both.design(Extent::Sensible));
+        assert_eq!((both.middle(), &design[..map.len()]), (axes().middle(), map.as_slice()));
+        let taken = map.iter().filter(|configuration| Scheme::Source.takes(configuration.fill));
+        let taken: Vec<Configuration> =
+            taken.map(|&of_map| Configuration { scheme: Scheme::Source, ..of_map }).collect();
+        assert!(taken.len() < map.len());
+        assert!(design[map.len()..] == taken, "{} of {}", design.len() - map.len(), taken.len());
+    }
+
+    #[test]
     fn a_list_of_one_is_all_that_is_run() {
         let one = Axes {
             kept: vec![Kept::Velocity],
             roundings: vec![Rounding::Truncate],
             fills: vec![FillMode::Hold.into()],
+            schemes: vec![Scheme::Map],
         };
         for configuration in one.design(Extent::Full) {
             assert_eq!(

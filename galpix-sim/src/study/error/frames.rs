@@ -2,22 +2,9 @@
 
 use serde::Serialize;
 
+use crate::metric::measures::Measures;
 use crate::metric::stats;
-
-/// A frame as a picture, compared with the truth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct PictureError {
-    /// PSNR, decibels.
-    pub psnr_db: f64,
-    /// PSNR over the cells that a galpixel of the update reached.
-    pub psnr_known_db: Option<f64>,
-    /// Structural similarity.
-    pub ssim: f64,
-    /// Mean FLIP.
-    pub flip: f64,
-    /// Cells that no galpixel of the update reached, per cent.
-    pub missing_percent: Option<f64>,
-}
+use crate::study::run::TruthReport;
 
 /// A frame that was looked at. Positions are those of galpixels of the update, before the snap to a cell, the worse of
 /// x and y.
@@ -44,7 +31,7 @@ pub struct FrameError {
     /// The mean of all, against the true motion.
     pub truth_mean_px: Option<f64>,
     /// Where a true picture was compared with.
-    pub picture: Option<PictureError>,
+    pub picture: Option<TruthReport>,
 }
 
 impl FrameError {
@@ -83,16 +70,15 @@ pub struct Summary {
     pub bound_px: Option<f64>,
     /// The certificate alone.
     pub certified_px: Option<f64>,
-    /// PSNR, decibels.
-    pub psnr_db: Option<f64>,
+    /// What every table has of the pictures.
+    #[serde(flatten)]
+    pub measures: Measures,
     /// PSNR over the cells that a galpixel reached.
     pub psnr_known_db: Option<f64>,
     /// Structural similarity.
     pub ssim: Option<f64>,
     /// Mean FLIP.
     pub flip: Option<f64>,
-    /// Cells that no galpixel of the update reached, per cent.
-    pub missing_percent: Option<f64>,
 }
 
 impl Summary {
@@ -101,7 +87,8 @@ impl Summary {
     pub fn of(frames: &[FrameError]) -> Self {
         let worst = |column: &dyn Fn(&FrameError) -> Option<f64>| frames.iter().filter_map(column).reduce(f64::max);
         let mean = |column: &dyn Fn(&FrameError) -> Option<f64>| stats::mean(frames.iter().filter_map(column));
-        let of_pictures = |column: &dyn Fn(&PictureError) -> Option<f64>| mean(&|frame| column(&frame.picture?));
+        let of_pictures = |column: &dyn Fn(&TruthReport) -> Option<f64>| mean(&|frame| column(&frame.picture?));
+        let pictures = frames.iter().filter_map(|frame| frame.picture.as_ref());
         // A bound that is missing in one frame is none.
         let bound = |column: &dyn Fn(&FrameError) -> Option<f64>| {
             frames.iter().map(column).try_fold(0.0, |most: f64, bound| Some(most.max(bound?)))
@@ -113,11 +100,10 @@ impl Summary {
             truth_mean_px: mean(&|frame| frame.truth_mean_px),
             bound_px: bound(&|frame| Some(frame.certified_px? + frame.left_out_px)),
             certified_px: bound(&|frame| frame.certified_px),
-            psnr_db: of_pictures(&|picture| Some(picture.psnr_db)),
+            measures: Measures::mean(pictures.map(TruthReport::measures)),
             psnr_known_db: of_pictures(&|picture| picture.psnr_known_db),
-            ssim: of_pictures(&|picture| Some(picture.ssim)),
-            flip: of_pictures(&|picture| Some(picture.flip)),
-            missing_percent: of_pictures(&|picture| picture.missing_percent),
+            ssim: of_pictures(&|picture| picture.ssim),
+            flip: of_pictures(&|picture| picture.flip),
         }
     }
 }

@@ -21,6 +21,9 @@ pub fn ink(point: &Point) -> Ink {
 
 /// Returns the shape of a point.
 pub fn shape(point: &Point) -> Shape {
+    if point.scheme == Scheme::Source {
+        return Shape::Cross;
+    }
     let rounding = Rounding::ALL.into_iter().find(|rounding| Some(rounding.name()) == point.rounding);
     rounding.map_or(Shape::Cross, rounding_shape)
 }
@@ -51,8 +54,9 @@ fn mark_key(name: &str, shape: Shape, ink: Ink, radius: f64) -> Markup {
 /// Returns the legend of the points: fill modes by colour, roundings by shape, bytes by size.
 pub fn key(source: &SourceReport, bounds: bool) -> Markup {
     let points = &source.points;
-    let used = |fill: &Fill| points.iter().any(|p| p.scheme == Scheme::Galpix && p.fill == fill.name());
-    let rounded = |rounding: &Rounding| points.iter().any(|point| point.rounding == Some(rounding.name()));
+    let used = |fill: &Fill| points.iter().any(|p| p.scheme != Scheme::F32 && p.fill == fill.name());
+    let rounded =
+        |rounding: &Rounding| points.iter().any(|p| p.scheme == Scheme::Galpix && p.rounding == Some(rounding.name()));
     let sizes = points.iter().map(|point| point.bytes);
     let ends = sizes.clone().min().into_iter().chain(sizes.max());
     html! {
@@ -61,6 +65,9 @@ pub fn key(source: &SourceReport, bounds: bool) -> Markup {
             (mark_key(rounding.name(), rounding_shape(rounding), Ink::Axis, 5.0))
         }
         @if points.iter().any(|point| point.scheme == Scheme::F32) { (mark_key("f32", Shape::Cross, Ink::Label, 5.0)) }
+        @if points.iter().any(|point| point.scheme == Scheme::Source) {
+            (mark_key("stationary sources", Shape::Cross, Ink::Axis, 5.0))
+        }
         @for bytes in ends { (mark_key(&format!("{bytes} bytes"), Shape::Disc, Ink::Axis, radius(bytes))) }
         (line_key("front", Ink::Guide, false))
         @if bounds { (line_key("at most", Ink::Bound, false)) }

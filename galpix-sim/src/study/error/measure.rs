@@ -4,12 +4,13 @@ use galpix_core::{Bits, Dynamic, Layout, Settings};
 
 use super::design::Configuration;
 use super::float;
-use super::frames::{FrameError, PictureError};
+use super::frames::{FrameError, Summary};
 use super::ranges::Stored;
-use super::reference::{Reference, displacement};
+use super::reference::{Compared, Reference, displacement};
 use crate::engine::{Engine, EngineError, LoadTally};
-use crate::metric;
+use crate::metric::measures::Measures;
 use crate::picture::Picture;
+use crate::study::run::{Comparison, Seen, TruthReport};
 
 /// What a configuration gave.
 pub struct Measured {
@@ -31,15 +32,19 @@ pub fn engine(
     settings: Settings,
 ) -> Result<Measured, EngineError> {
     let layout = configuration.kept.layout();
-    let engine = Engine::new(Dynamic::new(bits, layout)?, settings).inpainting(configuration.fill.inpaint());
+    let scheme = configuration.scheme;
+    let engine = Engine::new(Dynamic::new(bits, layout)?, settings)
+        .inpainting(configuration.fill.inpaint())
+        .showing(scheme, scheme.scan_out());
     let mut frames = Vec::with_capacity(reference.looked.len());
+    let mut pictures = Pictures::of(reference);
     let mut saturated = 0;
     let loaded = engine.run(&reference.update, reference.frames, |frame| {
         saturated += u64::from(frame.tally.saturated);
+        let picture = pictures.compare(frame.number, || (frame.picture(), frame.reached()));
         if reference.looked.contains(&frame.number) {
-            let mut error = positions(reference, frame.number, layout, Some(bits), frame.places().into_iter());
-            error.picture = picture(reference, frame.number, || (frame.picture(), frame.reached()));
-            frames.push(error);
+            let error = positions(reference, frame.number, layout, Some(bits), frame.places().into_iter());
+            frames.push(FrameError { picture, ..error });
         }
     })?;
     Ok(Measured { loaded, saturated, frames })
@@ -50,28 +55,32 @@ pub fn engine(
 pub fn floats(reference: &Reference<'_>, configuration: &Configuration) -> Measured {
     let layout = configuration.kept.layout();
     let mut frames = Vec::with_capacity(reference.looked.len());
-    let Reference { update, looked, .. } = reference;
-    float::run(update, configuration.kept, configuration.fill.mode(), looked, |frame| {
-        let mut error = positions(reference, frame.number, layout, None, frame.places.iter().copied());
-        error.picture = picture(reference, frame.number, || (frame.picture.clone(), frame.reached.clone()));
-        frames.push(error);
+    let mut pictures = Pictures::of(reference);
+    float::run(&reference.update, configuration.kept, configuration.fill.mode(), &reference.made(), |frame| {
+        let picture = pictures.compare(frame.number, || (frame.picture.clone(), frame.reached.clone()));
+        if reference.looked.contains(&frame.number) {
+            let error = positions(reference, frame.number, layout, None, frame.places.iter().copied());
+            frames.push(FrameError { picture, ..error });
+        }
     });
     Measured { loaded: LoadTally::default(), saturated: 0, frames }
 }
 
-/// Sample-and-hold in the frames that are looked at.
+/// Returns sample-and-hold in the frames that are looked at. It has no galpixel, so that nothing is known or missing.
 #[must_use]
-pub fn hold(reference: &Reference<'_>) -> Vec<FrameError> {
-    let all = vec![false; reference.hold.pixels.len()];
-    let still = |&frame: &u32| FrameError {
-        picture: picture(reference, frame, || (reference.hold.clone(), all.clone())).map(|picture| PictureError {
-            psnr_known_db: None,
-            missing_percent: None,
-            ..picture
-        }),
-        ..FrameError::at(frame)
+pub fn hold(reference: &Reference<'_>) -> Summary {
+    let none = vec![false; reference.hold.pixels.len()];
+    let mut pictures = Pictures::of(reference);
+    let still = |frame| {
+        let picture = pictures.compare(frame, || (reference.hold.clone(), none.clone()));
+        FrameError { picture, ..FrameError::at(frame) }
     };
-    reference.looked.iter().map(still).collect()
+    let mut frames = reference.made();
+    frames.sort_unstable();
+    frames.dedup();
+    let frames: Vec<FrameError> = frames.into_iter().map(still).collect();
+    let summary = Summary::of(&frames);
+    Summary { psnr_known_db: None, measures: Measures { missing_percent: None, ..summary.measures }, ..summary }
 }
 
 /// The larger of the errors in x and y.
@@ -125,23 +134,28 @@ fn positions(
     error
 }
 
-fn picture(
-    reference: &Reference<'_>,
-    frame: u32,
-    shown: impl FnOnce() -> (Picture, Vec<bool>),
-) -> Option<PictureError> {
-    let truth = reference.truth(frame)?;
-    let (picture, reached) = shown();
-    let mask = truth.mask.as_deref();
-    let counts = |index: usize| mask.is_none_or(|mask| mask[index]);
-    let counted = (0..reached.len()).filter(|&index| counts(index)).count();
-    let known: Vec<bool> = reached.iter().enumerate().map(|(index, &reached)| reached && counts(index)).collect();
-    let there = known.iter().filter(|&&known| known).count();
-    Some(PictureError {
-        psnr_db: metric::psnr_db(&picture, &truth.picture, mask)?,
-        psnr_known_db: metric::psnr_db(&picture, &truth.picture, Some(&known)),
-        ssim: metric::ssim(&picture, &truth.picture, mask)?,
-        flip: metric::flip(&picture, &truth.picture, mask)?,
-        missing_percent: Some(100.0 * (counted - there) as f64 / counted.max(1) as f64),
-    })
+/// Compares the pictures of a configuration with the truth, in ascending frames.
+struct Pictures<'r> {
+    reference: &'r Reference<'r>,
+    comparison: Comparison<'r>,
+}
+
+impl<'r> Pictures<'r> {
+    fn of(reference: &'r Reference<'r>) -> Self {
+        Self { reference, comparison: Comparison::new(&reference.hold, true) }
+    }
+
+    /// Returns how far the picture of a frame is from the truth, if that is reported; `shown` gives the picture, and
+    /// which of its cells were reached.
+    fn compare(&mut self, frame: u32, shown: impl FnOnce() -> (Picture, Vec<bool>)) -> Option<TruthReport> {
+        let compared = self.reference.compared.iter().find(|compared| compared.truth.frame == frame)?;
+        let (picture, reached) = shown();
+        let Compared { truth, outline, reported } = compared;
+        let seen = Seen { picture: &picture, truth, reached: &reached, outline };
+        if *reported {
+            return Some(self.comparison.frame(&seen));
+        }
+        self.comparison.pass(&seen);
+        None
+    }
 }

@@ -32,12 +32,12 @@ use galpix_core::{Bits, BudgetError, Dynamic, Layout, Rounding};
 use super::job::{ExperimentError, Job, Request};
 use super::timing::Effort;
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
+use crate::engine;
 use crate::engine::fill::Fill;
-use crate::output::column;
+use crate::output::{column, measures};
 use crate::source::Source;
 use crate::update::{Known, Update};
-use design::{Axes, Configuration, Extent, Kept, Step};
-use frames::Summary;
+use design::{Axes, Extent, Kept, Step};
 use ranges::Ranges;
 use reference::Reference;
 use report::{DemandReport, Fronts, Point, Scheme, SourceReport};
@@ -53,6 +53,8 @@ pub struct Plan {
     pub roundings: Vec<Rounding>,
     /// Fill modes to choose from.
     pub fills: Vec<Fill>,
+    /// Schemes to choose from, each for the fill modes that it takes.
+    pub schemes: Vec<engine::Scheme>,
     /// How many configurations.
     pub extent: Extent,
 }
@@ -80,6 +82,10 @@ impl Study for Plan {
 
     fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
         study(job, self, stage.notify).map(Found::Report).map_err(StudyError::unusable)
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![measures::legend()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -115,7 +121,7 @@ impl Plan {
         let lit = update.samples.iter().any(|sample| sample.known == Known::Motion && sample.luminosity_rate != 0.0);
         let useful: Vec<Kept> = self.kept.iter().copied().filter(|&kept| lit || kept != Kept::Luminosity).collect();
         let kept = if useful.is_empty() { self.kept.clone() } else { useful };
-        Axes { kept, roundings: self.roundings.clone(), fills: self.fills.clone() }
+        Axes { kept, roundings: self.roundings.clone(), fills: self.fills.clone(), schemes: self.schemes.clone() }
     }
 }
 
@@ -141,7 +147,7 @@ impl Run<'_> {
 /// Measures a source; `notify` is called with the progress.
 fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Result<SourceReport, ExperimentError> {
     let Job { source, frames, demand, .. } = *job;
-    let reference = Reference::with_update(source, job.update.clone(), frames);
+    let reference = Reference::of(job)?;
     let update = &reference.update;
     let axes = plan.axes(update);
     let cells = update.samples.len();
@@ -163,7 +169,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
     let points = run.points(&axes.design(extent), &mut left_out, notify)?;
 
     let middle = axes.middle();
-    let job = job.with_rounding(middle.rounding).with_fill(middle.fill);
+    let job = job.with_rounding(middle.rounding).with_scheme(middle.scheme).with_fill(middle.fill);
     notify(Work::Ahead(1));
     let (causes, shown) = causes::causes(&run.reference, &middle, job.bits, job.settings)?;
     let rates = match source {
@@ -172,8 +178,8 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
     };
     notify(Work::Done);
     let ages = if rates.is_empty() { rates::ages(&run.reference.hold, &shown) } else { Vec::new() };
-    let hold = Summary::of(&measure::hold(&run.reference));
-    left_out.extend(omissions(&run, source, middle));
+    let hold = measure::hold(&run.reference);
+    left_out.extend(omissions(&run, source, &axes));
     let alone: Vec<&str> =
         axes.kept.iter().filter(|&&kept| stand_in::of(kept).is_none()).map(|kept| kept.name()).collect();
     if !alone.is_empty() {
@@ -192,7 +198,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
         frames,
         demand: DemandReport { extent: demand.extent, recog: demand.recog, prop: demand.prop },
         looked_at: reference.looked.clone(),
-        pictures: reference.truths.iter().map(|truth| truth.frame).collect(),
+        pictures: reference.pictures(),
         effort,
         fronts: fronts(&points),
         points,
@@ -208,7 +214,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
 fn fronts(points: &[Point]) -> Fronts {
     type Cost<'c> = &'c dyn Fn(&Point) -> (Option<f64>, Option<f64>);
     let front = |cost: Cost<'_>| {
-        let cost = |point: &Point| if point.scheme == Scheme::Galpix { cost(point) } else { (None, None) };
+        let cost = |point: &Point| if point.scheme == Scheme::F32 { (None, None) } else { cost(point) };
         let costs: Vec<_> = points.iter().map(cost).collect();
         pareto::front(&costs).into_iter().map(|index| points[index].id).collect()
     };
@@ -221,13 +227,13 @@ fn fronts(points: &[Point]) -> Fronts {
 }
 
 /// Returns what was left out and what cannot be known, a sentence each.
-fn omissions(run: &Run<'_>, source: &Source, middle: Configuration) -> Vec<String> {
+fn omissions(run: &Run<'_>, source: &Source, axes: &Axes) -> Vec<String> {
     let reference = &run.reference;
     let mut left_out = vec![format!(
         "Positions were looked at in {} of {} frames, pictures in {}.",
         reference.looked.len(),
         reference.frames,
-        reference.truths.len()
+        reference.pictures().len()
     )];
     if run.effort.frames < reference.frames {
         left_out.push(format!("The first {} frames were timed.", run.effort.frames));
@@ -256,7 +262,20 @@ fn omissions(run: &Run<'_>, source: &Source, middle: Configuration) -> Vec<Strin
             }
         }
     }
+    if axes.schemes.contains(&engine::Scheme::Source) {
+        let not: Vec<&str> =
+            axes.fills.iter().filter(|&&fill| !engine::Scheme::Source.takes(fill)).map(|fill| fill.name()).collect();
+        if !not.is_empty() {
+            left_out.push(format!("Stationary sources do not have {}.", not.join(", ")));
+        }
+        left_out.push(
+            "Stationary sources have no stand-in: they were timed in the run-time form alone, with the picture, and are \
+             on no front of time."
+                .to_owned(),
+        );
+    }
     left_out.push("Floats have the fill modes hold and, with the richest fields, none.".to_owned());
+    let middle = axes.middle();
     if middle.kept.layout() != Layout::FULL && middle.kept != Kept::Luminosity {
         left_out.push(format!("The causes and the rates are those of fields {}.", middle.kept.name()));
     }

@@ -10,6 +10,7 @@ use super::report::{Point, Scheme, SourceReport};
 use crate::output::column;
 use crate::output::html::text::figure;
 use crate::output::html::{self as page, Head};
+use crate::output::measures;
 
 /// Returns the document as a self-contained page.
 #[must_use]
@@ -21,7 +22,7 @@ pub fn html(document: &Document) -> String {
             .to_owned(),
     ];
     let main = html! {
-        (page::reading(READING))
+        (page::reading(&format!("{READING}<li>{}</li>", measures::reading().into_string())))
         @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
         (page::notes("Left out of all this", &LEFT_OUT.map(str::to_owned)))
     };
@@ -36,8 +37,7 @@ budget chosen at run time.</li>\
 <li><b>Position error</b> is that of the worst galpixel against the exact second-order path of the update, before the snap to a \
 cell. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick above a point</span> is what it can at most be: the certificate, \
 and what the fields that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
-<li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>Missing</b> cells are those that no galpixel of the \
-update reached, before filling. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
+<li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
 
 const LEFT_OUT: [&str; 4] = [
     "Depth has the same steps as x and y; budgets that shave depth alone were not tried.",
@@ -133,12 +133,17 @@ fn fronts(source: &SourceReport) -> Markup {
     let on = |front: &[usize]| -> Vec<&Point> {
         front.iter().filter_map(|id| source.points.iter().find(|point| point.id == *id)).collect()
     };
-    let floats: Vec<&Point> = source.points.iter().filter(|point| point.scheme == Scheme::F32).collect();
+    let of = |scheme| source.points.iter().filter(|point| point.scheme == scheme).collect::<Vec<&Point>>();
+    let (sources, floats) = (of(Scheme::Source), of(Scheme::F32));
     html! {
         h3.over { "The fronts, by the letters of the plots" }
         @for (title, front) in fronts.into_iter().filter(|(_, front)| !front.is_empty()) {
             h3 { (title) }
             (table(source, on(front), |place, _| figures::letter(place)))
+        }
+        @if !sources.is_empty() {
+            h3 { "As stationary sources" }
+            (table(source, sources, |_, point| point.id.to_string()))
         }
         @if !floats.is_empty() {
             h3 { "The same scheme in 32-bit floats" }

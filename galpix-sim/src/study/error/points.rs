@@ -10,10 +10,12 @@ use super::frames::{FrameError, Summary};
 use super::report::{Point, Scheme};
 use super::{Run, float, measure, stand_in};
 use crate::certificate::Certificate;
+use crate::engine;
 use crate::engine::fill::Fill;
 use crate::study::Work;
 use crate::study::job::{ExperimentError, Request};
-use crate::study::timing::{Engine, Maker, Time, race};
+use crate::study::timing::{Contender, Engine, Maker, Time, Whole, race};
+use crate::update::Update;
 
 /// A configuration whose budget exists.
 struct Candidate {
@@ -26,9 +28,30 @@ struct Candidate {
 impl Candidate {
     /// Returns whether another one would do the same.
     fn is(&self, other: &Self) -> bool {
-        let what = |of: &Self| (of.bits, of.settings, of.configuration.kept, of.configuration.fill);
+        let how = |of: &Self| (of.configuration.kept, of.configuration.fill, of.configuration.scheme);
+        let what = |of: &Self| (of.bits, of.settings, how(of));
         what(self) == what(other)
     }
+}
+
+impl Candidate {
+    /// Returns the engine that makes its frames.
+    fn contender<'u>(&self, update: &'u Update) -> Option<Box<dyn Contender + 'u>> {
+        let Self { configuration: Configuration { fill, scheme, .. }, format, settings, .. } = *self;
+        let inpaint = fill.inpaint();
+        Some(match scheme {
+            engine::Scheme::Map => Box::new(Engine::new(update, format, settings, inpaint)?),
+            engine::Scheme::Source => {
+                let engine = engine::Engine::new(format, settings).inpainting(inpaint);
+                Box::new(Whole::new(engine.showing(scheme, scheme.scan_out()), format, update, Vec::new()).ok()?)
+            }
+        })
+    }
+}
+
+/// Returns the compile-time budget that a configuration is timed with, if there is one.
+fn stand_in(configuration: &Configuration) -> Option<&'static stand_in::StandIn> {
+    stand_in::of(configuration.kept).filter(|_| configuration.scheme == engine::Scheme::Map)
 }
 
 impl Run<'_> {
@@ -94,7 +117,8 @@ impl Run<'_> {
             for fill in [FillMode::None, FillMode::Hold].map(Fill::from) {
                 // Black holes are for study: the richest fields show them.
                 let shown = fill == FillMode::Hold.into() || none && configuration.kept == middle;
-                let float = Configuration { fill, step: Step::DERIVED, rounding: Rounding::Nearest, ..*configuration };
+                let (rounding, scheme) = (Rounding::Nearest, engine::Scheme::Map);
+                let float = Configuration { fill, step: Step::DERIVED, rounding, scheme, ..*configuration };
                 if shown && configuration.kept != Kept::Still && !floats.contains(&float) {
                     floats.push(float);
                 }
@@ -140,8 +164,8 @@ impl Run<'_> {
             used_bits: record.bits(),
             saturated: u64::from(measured.loaded.saturated) + measured.saturated,
             budget: configuration.step.name(),
-            stand_in: stand_in::of(configuration.kept).map(stand_in::StandIn::name),
-            ..point(Scheme::Galpix, configuration, measured.frames)
+            stand_in: stand_in(configuration).map(stand_in::StandIn::name),
+            ..point(Scheme::of(configuration.scheme), configuration, measured.frames)
         })
     }
 
@@ -167,10 +191,7 @@ impl Run<'_> {
         let update = &self.reference.update;
         let mut makers: Vec<Maker<'_>> = Vec::new();
         for candidate in candidates {
-            makers.push(Box::new(move || {
-                let inpaint = candidate.configuration.fill.inpaint();
-                Some(Box::new(Engine::new(update, candidate.format, candidate.settings, inpaint)?))
-            }));
+            makers.push(Box::new(move || candidate.contender(update)));
         }
         for configuration in floats {
             let cells = update.samples.len();
@@ -181,7 +202,7 @@ impl Run<'_> {
         }
         let mut fixed: Vec<(String, Fill)> = Vec::new();
         for candidate in candidates {
-            let Some(stand_in) = stand_in::of(candidate.configuration.kept) else { continue };
+            let Some(stand_in) = stand_in(&candidate.configuration) else { continue };
             let kind = (stand_in.name(), candidate.configuration.fill);
             if !fixed.contains(&kind) {
                 fixed.push(kind);

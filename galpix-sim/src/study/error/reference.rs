@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use galpix_core::Layout;
+use galpix_core::{FillMode, Layout};
 use rayon::prelude::*;
 
+use crate::engine::Scheme;
 use crate::picture::Picture;
 use crate::source::Source;
+use crate::study::job::{ExperimentError, Job};
 use crate::update::{Known, Sample, Truth, Update};
 
 /// The frames whose pictures are compared; fewer where they are large: FLIP takes a microsecond per pixel.
@@ -27,11 +29,21 @@ pub struct Reference<'s> {
     /// Frames to extrapolate.
     pub frames: u32,
     /// The true pictures that are compared with, in ascending frames.
-    pub truths: Vec<Truth>,
-    /// The frames in which a configuration is looked at, ascending; those of `truths` are among them.
+    pub compared: Vec<Compared>,
+    /// The frames in which a configuration is looked at, ascending; those whose pictures are reported are among them.
     pub looked: Vec<u32>,
     /// For each frame from 1 on, where each sample truly is, in cells of the map; only known for scenes.
     tracks: Option<Vec<Vec<[f64; 2]>>>,
+}
+
+/// A true picture.
+pub struct Compared {
+    /// The truth.
+    pub truth: Truth,
+    /// [`crate::engine::Frame::outline`]: that of the derived budget, for all configurations.
+    pub outline: Vec<bool>,
+    /// Whether its measures are reported; if not, it is there for the change to the next frame.
+    pub reported: bool,
 }
 
 /// Returns `count` of some things, evenly spaced, the last among them.
@@ -41,33 +53,50 @@ fn spread<T: Copy>(all: &[T], count: usize) -> Vec<T> {
 }
 
 impl<'s> Reference<'s> {
-    /// Of a source over `frames` frames.
+    /// Of a source over `frames` frames, whose positions alone are compared.
     #[must_use]
     pub fn new(source: &'s Source, frames: u32) -> Self {
         Self::with_update(source, Arc::new(source.update()), frames)
     }
 
-    /// Of a source over `frames` frames, with its update.
-    pub(super) fn with_update(source: &'s Source, update: Arc<Update>, frames: u32) -> Self {
-        let hold = update.picture();
-        let pictures = (PIXELS / hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
+    /// Of the source of a job, whose pictures are compared too.
+    ///
+    /// *Errors:* a budget that cannot exist, a map that does not fit.
+    pub(super) fn of(job: &Job<'s>) -> Result<Self, ExperimentError> {
+        let Job { source, frames, .. } = *job;
+        let mut reference = Self::with_update(source, job.update.clone(), frames);
+        let pictures = (PIXELS / reference.hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
         let known: Vec<u32> = match source {
             Source::Scene(_) => (1..=frames).collect(),
             Source::Capture(capture) => {
                 capture.truths.iter().map(|truth| truth.frame).filter(|frame| (1..=frames).contains(frame)).collect()
             }
         };
-        let truths: Vec<Truth> = spread(&known, pictures).into_iter().filter_map(|frame| source.truth(frame)).collect();
+        let reported = spread(&known, pictures);
+        // With all that the update has, as `galpix run` has it.
+        let whole = Job::resolve(source, &job.request)?.with_scheme(Scheme::Map).with_fill(FillMode::None.into());
+        whole.engine().outlined().run(&job.update, frames, |frame| {
+            let reports = reported.contains(&frame.number);
+            let wanted = reports || reported.contains(&(frame.number + 1)) && known.contains(&frame.number);
+            if let Some(truth) = wanted.then(|| source.truth(frame.number)).flatten() {
+                reference.compared.push(Compared { truth, outline: frame.outline(), reported: reports });
+            }
+        })?;
+        reference.looked.extend(reported);
+        reference.looked.sort_unstable();
+        reference.looked.dedup();
+        Ok(reference)
+    }
+
+    fn with_update(source: &'s Source, update: Arc<Update>, frames: u32) -> Self {
+        let hold = update.picture();
         let all: Vec<u32> = (1..=frames).collect();
-        let mut looked = spread(&all, MOST_PLACES);
-        looked.extend(truths.iter().map(|truth| truth.frame));
-        looked.sort_unstable();
-        looked.dedup();
+        let looked = spread(&all, MOST_PLACES);
         let tracks = match source {
             Source::Scene(scene) => Some(all.par_iter().map(|&frame| tracks(*scene, &update, frame)).collect()),
             Source::Capture(_) => None,
         };
-        Self { source, update, hold, frames, truths, looked, tracks }
+        Self { source, update, hold, frames, compared: Vec::new(), looked, tracks }
     }
 
     /// Returns where a sample was in the update, in cells of the map.
@@ -83,10 +112,16 @@ impl<'s> Reference<'s> {
         self.tracks.as_ref()?.get(frame.checked_sub(1)? as usize)?.get(origin as usize).copied()
     }
 
-    /// Returns the true picture of a frame.
+    /// Returns the frames whose pictures are reported.
     #[must_use]
-    pub fn truth(&self, frame: u32) -> Option<&Truth> {
-        self.truths.iter().find(|truth| truth.frame == frame)
+    pub fn pictures(&self) -> Vec<u32> {
+        self.compared.iter().filter(|compared| compared.reported).map(|compared| compared.truth.frame).collect()
+    }
+
+    /// Returns the frames that must be made: those that are looked at, and those before them whose change is compared.
+    #[must_use]
+    pub fn made(&self) -> Vec<u32> {
+        self.looked.iter().copied().chain(self.compared.iter().map(|compared| compared.truth.frame)).collect()
     }
 
     /// Returns the most that fields which are left out would have moved a sample by, up to `frame`, in pixels.

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::causes::FrameCauses;
 use super::frames::{FrameError, Summary};
 use super::rates::{Age, Rate};
+use crate::engine;
 use crate::study::timing::{Effort, Time};
 
 /// What a point is run by.
@@ -15,6 +16,19 @@ pub enum Scheme {
     Galpix,
     /// The same scheme in 32-bit floats.
     F32,
+    /// galpix as stationary sources.
+    Source,
+}
+
+impl Scheme {
+    /// Returns what runs a scheme of the engine.
+    #[must_use]
+    pub const fn of(scheme: engine::Scheme) -> Self {
+        match scheme {
+            engine::Scheme::Map => Self::Galpix,
+            engine::Scheme::Source => Self::Source,
+        }
+    }
 }
 
 /// One configuration: a point of the plots.
@@ -44,7 +58,8 @@ pub struct Point {
     pub saturated: u64,
     /// The time with the budget chosen at run time, as the simulator runs it; none for floats.
     pub run_time: Option<Time>,
-    /// The time in the form of a product: with the budget fixed at compile time; none for fields without a stand-in.
+    /// The time in the form of a product: with the budget fixed at compile time; none for fields without a stand-in,
+    /// and for stationary sources.
     pub compile_time: Option<Time>,
     /// The compile-time budget that `compile_time` was measured with; none for fields that have none, and for floats,
     /// which are themselves.
@@ -60,7 +75,10 @@ impl Point {
     #[must_use]
     pub fn name(&self) -> String {
         match self.rounding {
-            Some(rounding) => format!("{}, {}, {}, {}", self.fields, self.budget, rounding, self.fill),
+            Some(rounding) => {
+                let sources = if self.scheme == Scheme::Source { ", stationary sources" } else { "" };
+                format!("{}, {}, {}, {}{sources}", self.fields, self.budget, rounding, self.fill)
+            }
             None => format!("f32, {}, {}", self.fields, self.fill),
         }
     }

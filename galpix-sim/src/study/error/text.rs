@@ -2,6 +2,7 @@
 
 use super::columns::{Row, columns};
 use super::report::{Point, Scheme, SourceReport};
+use crate::metric::measures::Measures;
 use crate::output::column::Table;
 use crate::output::number;
 
@@ -12,12 +13,13 @@ pub fn text(report: &SourceReport) -> String {
     let row = |point| Row::new(report, point, String::new());
     let of = |ids: &[usize]| report.points.iter().filter(|point| ids.contains(&point.id)).collect::<Vec<_>>();
     let bytes = report.fronts.bytes.iter().flat_map(|&id| of(&[id])).collect();
-    let floats = report.points.iter().filter(|point| point.scheme == Scheme::F32).collect();
-    let parts: [(&str, Vec<Row<'_>>); 4] = [
+    let of_scheme = |scheme| by_time(report.points.iter().filter(|point| point.scheme == scheme).collect());
+    let parts: [(&str, Vec<Row<'_>>); 5] = [
         ("front of time and worst position error:", by_time(of(&report.fronts.position))),
         ("front of time and FLIP:", by_time(of(&report.fronts.picture))),
         ("front of bytes and worst position error:", bytes),
-        ("the same scheme in 32-bit floats:", by_time(floats)),
+        ("as stationary sources:", of_scheme(Scheme::Source)),
+        ("the same scheme in 32-bit floats:", of_scheme(Scheme::F32)),
     ]
     .map(|(title, points): (_, Vec<&Point>)| (title, points.into_iter().map(row).collect()));
     let columns = columns();
@@ -35,23 +37,23 @@ pub fn text(report: &SourceReport) -> String {
         report.points.len()
     )];
     lines.push(table.heading());
-    for (place, (title, rows)) in parts.iter().enumerate() {
-        // Without true pictures there is no front of FLIP.
-        if place != 1 || !rows.is_empty() {
-            lines.push((*title).to_owned());
-            lines.extend(rows.iter().map(|row| table.line(row)));
-        }
+    // Without true pictures there is no front of FLIP, without a time none of time.
+    for (title, rows) in parts.iter().filter(|(_, rows)| !rows.is_empty()) {
+        lines.push((*title).to_owned());
+        lines.extend(rows.iter().map(|row| table.line(row)));
     }
     if report.hold.flip.is_some() {
-        let [psnr, flip] = [number(report.hold.psnr_db, 2), number(report.hold.flip, 4)];
-        lines.push(format!("sample-and-hold: PSNR {psnr} dB, FLIP {flip}"));
+        let Measures { psnr_db, psnr_inside_db, change_error, .. } = report.hold.measures;
+        let [psnr, inside, change] = [psnr_db, psnr_inside_db, change_error].map(|measure| number(measure, 2));
+        let flip = number(report.hold.flip, 4);
+        lines.push(format!("sample-and-hold: PSNR {psnr} dB, inside {inside} dB, change {change}, FLIP {flip}"));
     }
     lines.extend(rates(report));
     lines.join("\n")
 }
 
 fn by_time(mut points: Vec<&Point>) -> Vec<&Point> {
-    let time = |point: &Point| point.compile_time.map_or(f64::INFINITY, |time| time.frame_us);
+    let time = |point: &Point| point.compile_time.or(point.run_time).map_or(f64::INFINITY, |time| time.frame_us);
     points.sort_by(|a, b| time(a).total_cmp(&time(b)));
     points
 }

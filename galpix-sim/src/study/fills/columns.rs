@@ -1,9 +1,12 @@
 //! The columns of the figures: a line for each source, fill and frame, and one for all frames, whose frame is empty.
 
 use super::figures::Figures;
-use super::report::{FillReport, FrameCells, SourceReport};
+use super::report::{FillReport, FrameCells, FrameFigures, SourceReport};
+use crate::metric::measures::Measures;
 use crate::output::column::{Column, Table, Value};
+use crate::output::measures::{self, Measured};
 use crate::output::number;
+use crate::study::run::TruthReport;
 use crate::study::timing::Time;
 
 /// A fill in a frame, or in all of them.
@@ -11,7 +14,13 @@ pub struct Row<'r> {
     source: &'r SourceReport,
     fill: &'r FillReport,
     figures: &'r Figures,
-    frame: Option<&'r FrameCells>,
+    frame: Option<(&'r FrameFigures, &'r FrameCells)>,
+}
+
+impl Measured for Row<'_> {
+    fn measures(&self) -> Measures {
+        self.frame.map_or(self.fill.measures, |(frame, _)| frame.truth.measures())
+    }
 }
 
 impl<'r> Row<'r> {
@@ -19,8 +28,15 @@ impl<'r> Row<'r> {
         Self { source, fill, figures: &fill.summary, frame: None }
     }
 
-    fn cells(&self, of: fn(&FrameCells) -> u64) -> Value {
-        self.frame.map_or_else(|| self.source.cells.iter().map(of).sum(), of).into()
+    /// Returns a number of cells of the fill's own run.
+    fn cells(&self, of: fn(&TruthReport) -> u64) -> Value {
+        let all = || self.fill.frames.iter().map(|frame| of(&frame.truth)).sum();
+        self.frame.map_or_else(all, |(frame, _)| of(&frame.truth)).into()
+    }
+
+    /// Returns the number of the cells that are judged.
+    fn disoccluded(&self) -> u64 {
+        self.frame.map_or_else(|| self.source.disoccluded(), |(_, cells)| cells.disoccluded)
     }
 
     /// Returns a figure of all frames together.
@@ -37,7 +53,7 @@ impl<'r> Row<'r> {
 pub fn rows(source: &SourceReport) -> impl Iterator<Item = Row<'_>> {
     source.fills.iter().flat_map(move |fill| {
         let frames = fill.frames.iter().zip(&source.cells);
-        let each = frames.map(move |(frame, cells)| Row { source, fill, figures: &frame.figures, frame: Some(cells) });
+        let each = frames.map(move |both| Row { source, fill, figures: &both.0.figures, frame: Some(both) });
         each.chain([Row::summary(source, fill)])
     })
 }
@@ -48,22 +64,27 @@ pub fn summaries(source: &SourceReport) -> Vec<Row<'_>> {
 }
 
 /// Returns the columns.
-pub fn columns<'r>() -> [Column<Row<'r>>; 18] {
-    [
+pub fn columns<'r>() -> Vec<Column<Row<'r>>> {
+    let mut columns = vec![
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
         Column::new(|row: &Row| row.fill.name.into()).csv("fill").both("fill", 0).words(),
+        Column::new(|row: &Row| row.fill.scheme.into()).csv("scheme").both("scheme", 0).words(),
         Column::new(|row: &Row| row.fill.gamma.into()).csv("gamma"),
         Column::new(|row: &Row| row.fill.depth_aware.into()).csv("depth_aware"),
-        Column::new(|row: &Row| row.frame.map(|frame| frame.frame).into()).csv("frame"),
-        Column::new(|row: &Row| row.cells(|frame| frame.missing)).csv("missing"),
-        Column::new(|row: &Row| row.cells(|frame| frame.at_border)).csv("at_border"),
-        Column::new(|row: &Row| row.cells(|frame| frame.disoccluded)).csv("disoccluded"),
+        Column::new(|row: &Row| row.frame.map(|(frame, _)| frame.frame).into()).csv("frame"),
+        Column::new(|row: &Row| row.cells(|truth| truth.missing)).csv("missing"),
+        Column::new(|row: &Row| row.cells(|truth| truth.missing_at_border)).csv("at_border"),
+        Column::new(|row: &Row| row.disoccluded().into()).csv("disoccluded"),
         Column::new(|row: &Row| row.figures.psnr_db.into()).csv("psnr_db").both("PSNR dB", 2),
         Column::new(|row: &Row| row.figures.ssim.into()).csv("ssim").both("SSIM", 4),
         Column::new(|row: &Row| row.figures.flip.into()).csv("flip").both("FLIP", 4),
         Column::new(|row: &Row| row.figures.variance.into()).csv("variance").both("variance", 1),
         Column::new(|row: &Row| row.of_all(row.source.truth.variance)).csv("truth_variance"),
         Column::new(|row: &Row| row.figures.flicker.into()).csv("flicker").both("flicker", 3).signed(),
+        Column::new(|row: &Row| row.measures().psnr_db.into()).csv("whole_psnr_db").both("whole dB", 2),
+    ];
+    columns.extend(measures::columns());
+    columns.extend([
         Column::new(|row: &Row| row.figures.ssimulacra2.into())
             .csv("ssimulacra2")
             .terminal("SSIMUL2", 2)
@@ -80,7 +101,8 @@ pub fn columns<'r>() -> [Column<Row<'r>>; 18] {
             .csv("x_copy")
             .terminal("x copy", 2)
             .page("\u{00D7} copy", 1),
-    ]
+    ]);
+    columns
 }
 
 /// Returns a source as text.
@@ -104,6 +126,7 @@ pub fn text(report: &SourceReport) -> String {
 }
 
 /// What the columns are.
-pub const LEGEND: &str = "PSNR, SSIM, FLIP (0 is best) and variance: over the disoccluded cells alone, all others set to the truth. \
+pub const LEGEND: &str = "PSNR, SSIM, FLIP (0 is best) and variance: over the disoccluded cells alone, all others set to the truth: those that \
+the map leaves open without a fill, for all schemes and fills. \
 variance: of luma, in 7x7 cells around each; flicker: change of luma from the frame before, less the truth's, where both frames are \
-disoccluded; SSIMUL2: SSIMULACRA2 of the whole picture; times: of the whole frame with the fill, x copy: by a copy of the map.";
+disoccluded; whole, SSIMUL2: PSNR, SSIMULACRA2 of the whole picture; times: of the whole frame with the fill, x copy: by a copy of the map; of stationary sources with the picture.";

@@ -1,8 +1,8 @@
 //! The pictures as files, for programs that fill the same holes in another way or judge them by another measure.
 //!
 //! `SOURCE/FRAME/` holds `truth.png`, `mask.png` (white: disoccluded, what is judged), `mask_all.png` (white: all that
-//! nothing reached), `warped.png` (those cells black) and `NAME.png` for each fill. `index.json` lists them; it is
-//! written last, so that where it is, the pictures are.
+//! nothing reached), `warped.png` (those cells black) and `NAME.png` for each fill, of stationary sources
+//! `source-NAME.png`. `index.json` lists them; it is written last, so that where it is, the pictures are.
 
 use std::path::{Path, PathBuf};
 
@@ -60,6 +60,7 @@ struct IndexFrame {
 #[derive(Serialize)]
 struct IndexFill {
     name: &'static str,
+    scheme: &'static str,
     file: String,
 }
 
@@ -90,8 +91,8 @@ impl Export {
     /// Writes what a fill shows in a frame.
     ///
     /// *Errors:* a file that cannot be written.
-    pub fn filled(&self, source: &Source, holes: &Holes, name: &str, shown: &Picture) -> Result<(), ExportError> {
-        self.write(&self.root.join(frame_folder(source.name(), holes.frame)).join(format!("{name}.png")), shown)
+    pub fn filled(&self, source: &Source, holes: &Holes, label: &str, shown: &Picture) -> Result<(), ExportError> {
+        self.write(&self.root.join(frame_folder(source.name(), holes.frame)).join(format!("{label}.png")), shown)
     }
 
     /// Thousands of small pictures: not one by one through to the disk. The index comes when all are there.
@@ -108,7 +109,11 @@ pub fn index(document: &Document) -> serde_json::Result<String> {
     let source = |report: &'_ super::report::SourceReport| -> Vec<IndexFrame> {
         let frame = |&cells: &FrameCells| {
             let at = |name: &str| format!("{}/{name}.png", frame_folder(&report.source, cells.frame));
-            let fills = report.fills.iter().map(|fill| IndexFill { name: fill.name, file: at(fill.name) });
+            let fills = report.fills.iter().map(|fill| IndexFill {
+                name: fill.name,
+                scheme: fill.scheme,
+                file: at(&fill.label),
+            });
             IndexFrame {
                 truth: at("truth"),
                 mask: at("mask"),

@@ -6,7 +6,8 @@ use crate::metric;
 use crate::metric::area::Window;
 use crate::metric::stats::weighted_mean;
 use crate::picture::Picture;
-use crate::study::holes::{Holes, count};
+use crate::study::cells::count;
+use crate::study::holes::Holes;
 
 /// Cells around the disoccluded ones that are used. No filter of FLIP or SSIM reaches farther, and farther out a
 /// picture and the truth are the same.
@@ -153,7 +154,8 @@ mod tests {
         for cell in (0..96 * 80).filter(|&cell| hole(cell)) {
             shown.pixels[cell] = [level; 3];
         }
-        (Holes { frame, warped: shown.clone(), all: disoccluded.clone(), truth, disoccluded }, shown)
+        let (warped, all, at_border) = (shown.clone(), disoccluded.clone(), vec![false; 96 * 80]);
+        (Holes { frame, warped, all, at_border, truth, disoccluded }, shown)
     }
 
     #[test]

@@ -19,11 +19,14 @@ mod times;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::cells::count;
 use super::crops;
-use super::holes::{self, Holes, count};
+use super::holes::{self, Holes};
 use super::job::{ExperimentError, Job, Request};
-use super::{File, Found, Nothing, Silent, Stage, Study, StudyError, Work, run, silent};
-use crate::output::column;
+use super::run::{self, TruthReport};
+use super::{File, Found, Nothing, Silent, Stage, Study, StudyError, Work, silent};
+use crate::metric::measures::Measures;
+use crate::output::{column, measures};
 use crate::picture::Picture;
 use crate::source::Source;
 use case::Case;
@@ -34,10 +37,12 @@ use report::{FillReport, FrameCells, FrameFigures, SourceReport};
 /// What to compare.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Frames, design numbers, rounding; its fill does not count.
+    /// Frames, design numbers, rounding; its scheme and its fill do not count.
     pub request: Request,
-    /// The fills, from cheap to rich.
+    /// The fills, from cheap to rich, in each scheme.
     pub cases: Vec<Case>,
+    /// What a scheme does not have of them, a sentence each.
+    pub left_out: Vec<String>,
     /// The radius of a disc in the middle of the display, in pixels, inside of which nothing is judged.
     pub fovea: Option<u32>,
 }
@@ -49,6 +54,8 @@ pub struct Extra {
     pub fovea: Option<u32>,
     /// The sources in which nothing is disoccluded.
     pub nothing_disoccluded: Vec<String>,
+    /// What a scheme does not have of the fills, a sentence each.
+    pub left_out: Vec<String>,
 }
 
 /// Everything that was measured.
@@ -59,8 +66,6 @@ impl Study for Plan {
     type Job<'s> = Job<'s>;
     type Report = SourceReport;
     type Extra = Extra;
-
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
 
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
@@ -81,12 +86,21 @@ impl Study for Plan {
         Ok(report.map_or(Found::Nothing(Nothing::Disoccluded), Found::Report))
     }
 
+    fn head(&self) -> Option<String> {
+        (!self.left_out.is_empty()).then(|| self.left_out.join("\n"))
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned(), measures::legend()]
+    }
+
     fn text(&self, report: &SourceReport) -> String {
         columns::text(report)
     }
 
     fn extra(&self, all: &Silent) -> Extra {
-        Extra { fovea: self.fovea, nothing_disoccluded: silent(all, Nothing::Disoccluded) }
+        let nothing_disoccluded = silent(all, Nothing::Disoccluded);
+        Extra { fovea: self.fovea, nothing_disoccluded, left_out: self.left_out.clone() }
     }
 
     fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {
@@ -147,15 +161,23 @@ fn compare(
     let times = times::of(job, &plan.cases);
     let mut crops = crops::of_truth(&holes, &largest);
     let fills = shown.into_iter().zip(&plan.cases).zip(times).map(|((shown, case), time)| {
-        crops.extend(shown.largest.map(|picture| crops::crop(case.name, &picture, &largest)));
-        let frames = holes.iter().zip(&shown.figures);
+        crops.extend(shown.largest.map(|picture| crops::crop(case.label(), &picture, &largest)));
+        let frames = holes.iter().zip(&shown.figures).zip(&shown.truths);
+        let frame = |((holes, &figures), &truth): ((&Holes, &Figures), &TruthReport)| FrameFigures {
+            frame: holes.frame,
+            figures,
+            truth,
+        };
         FillReport {
             name: case.name,
+            label: case.label(),
+            scheme: case.scheme.name(),
             gamma: case.fill.inpaint().map(|inpaint| inpaint.gamma.name()),
             depth_aware: case.fill.inpaint().map(|inpaint| inpaint.depth_aware),
             time,
             summary: figures::summary(&shown.figures, &weights),
-            frames: frames.map(|(holes, &figures)| FrameFigures { frame: holes.frame, figures }).collect(),
+            measures: Measures::mean(shown.truths.iter().map(TruthReport::measures)),
+            frames: frames.map(frame).collect(),
         }
     });
     let fills = fills.collect();
@@ -179,15 +201,20 @@ fn each(holes: &[Holes]) -> impl Iterator<Item = (Option<&Holes>, &Holes)> {
 }
 
 fn cells(holes: &Holes) -> FrameCells {
-    let (width, height) = (holes.truth.width, holes.truth.height);
-    let at_border = count(&crate::metric::area::at_border(&holes.all, width, height));
-    FrameCells { frame: holes.frame, missing: count(&holes.all), at_border, disoccluded: count(&holes.disoccluded) }
+    FrameCells {
+        frame: holes.frame,
+        missing: count(&holes.all),
+        at_border: count(&holes.at_border),
+        disoccluded: count(&holes.disoccluded),
+    }
 }
 
 /// What a fill showed.
 struct Shown {
     /// In each frame with a truth.
     figures: Vec<Figures>,
+    /// The same frames against the truth.
+    truths: Vec<TruthReport>,
     /// The picture with the largest disocclusion.
     largest: Option<Picture>,
 }
@@ -203,16 +230,17 @@ struct Judged<'s> {
 impl Judged<'_> {
     /// Runs a fill; keeps its picture of frame `wanted`.
     fn show(&self, case: &Case, wanted: u32) -> Result<Shown, FillsError> {
-        let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), largest: None };
+        let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), truths: Vec::new(), largest: None };
         let mut written = Ok(());
         let mut last: Option<(&Holes, Picture)> = None;
         let mut frames = self.holes.iter().zip(self.truths).peekable();
-        run::job(&self.job.with_fill(case.fill).without_perception(), |frame| {
+        let job = self.job.with_scheme(case.scheme).with_fill(case.fill).without_perception();
+        let report = run::job(&job, |frame| {
             let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
             let before = last.as_ref().map(|(before, picture)| (*before, picture));
             shown.figures.push(figures::of(holes, frame.picture, before, truth));
             if let (Some(export), Ok(())) = (self.export, &written) {
-                written = export.filled(self.job.source, holes, case.name, frame.picture);
+                written = export.filled(self.job.source, holes, &case.label(), frame.picture);
             }
             if holes.frame == wanted {
                 shown.largest = Some(frame.picture.clone());
@@ -220,6 +248,7 @@ impl Judged<'_> {
             last = Some((holes, frame.picture.clone()));
         })?;
         written?;
+        shown.truths = report.frames.iter().filter_map(|frame| frame.truth).collect();
         Ok(shown)
     }
 }

@@ -6,25 +6,27 @@ use maud::{Markup, html};
 use super::Document;
 use super::columns::{columns, summaries};
 use super::report::{FillReport, SourceReport};
+use crate::engine::Scheme;
 use crate::output::column;
 use crate::output::html::axis::Scale;
 use crate::output::html::scatter::{self, Mark, Scatter, Shape};
 use crate::output::html::text::{count, figure};
 use crate::output::html::{self as page, Head, style::Ink};
+use crate::output::measures;
 use crate::study::{crops, ink};
 
 /// Returns the document as a self-contained page.
 #[must_use]
 pub fn html(document: &Document) -> String {
     let intro = [
-        "A thing that moves away uncovers what the update never showed. Each fill below makes something up for it; every figure is \
-         over those cells alone."
+        "A thing that moves away uncovers what the update never showed. Each fill below makes something up for it; unless it says \
+         otherwise, a figure is over those cells alone."
             .to_owned(),
     ];
     let mut facts = document.facts();
     facts.extend(document.extra.fovea.map(|radius| ("Fovea".to_owned(), format!("{radius} px, not judged"))));
     let main = html! {
-        (page::reading(READING))
+        (page::reading(&format!("{READING}<li>{}</li>", measures::reading().into_string())))
         @for (index, source) in document.sources.iter().enumerate() { (section(index, source)) }
         (foot(document))
     };
@@ -32,19 +34,21 @@ pub fn html(document: &Document) -> String {
 }
 
 const READING: &str = "\
-<li><b>Disoccluded</b> cells are those that no galpixel of the update reached, by the warp alone, and that are not connected with the \
-border. <b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over them, all other cells set to the truth, and means over the frames, \
+<li><b>Disoccluded</b> cells are those that no galpixel of the update reached, by the warp of the map alone, and that are not connected \
+with the border: the same for all schemes and fills. <b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over them, all other cells set to the truth, and means over the frames, \
 weighted by their cells.</li>\
 <li><b>Variance</b> is that of luma in the 7\u{00D7}7 cells around each. Less than the truth\u{2019}s is blurred. <b>Flicker</b> is the mean \
 change of luma from the frame before, where both frames are disoccluded, less that of the truth.</li>\
 <li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median, relative to a \
-memory copy of the map in the same run (<b>\u{00D7} copy</b>). <b>SSIMULACRA2</b> is of the whole picture, 100 for equals.</li>";
+memory copy of the map in the same run (<b>\u{00D7} copy</b>). Of stationary sources the picture is part of the frame. <b>Whole</b> (PSNR) and \
+<b>SSIMULACRA2</b> (100 for equals) are of the whole picture.</li>";
 
 fn foot(document: &Document) -> Markup {
     let mut notes = vec![
         "fills.csv and fills.json in this folder hold every figure, frame by frame; index.json lists the pictures."
             .to_owned(),
     ];
+    notes.extend(document.extra.left_out.iter().cloned());
     let nothing = &document.extra.nothing_disoccluded;
     if !nothing.is_empty() {
         notes.push(format!("Nothing is disoccluded in {}.", nothing.join(", ")));
@@ -101,8 +105,12 @@ fn plot(source: &SourceReport, shown: &Shown) -> Markup {
             bound: None,
             radius: 5.0,
             ink: ink::named(fill.name).unwrap_or(Ink::Axis),
-            shape: if fill.depth_aware.is_some() { Shape::Diamond } else { Shape::Disc },
-            label: fill.name.to_owned(),
+            shape: match fill.depth_aware {
+                _ if fill.scheme == Scheme::Source.name() => Shape::Square,
+                Some(_) => Shape::Diamond,
+                None => Shape::Disc,
+            },
+            label: fill.label.clone(),
         })
     };
     let marks: Vec<Mark> = source.fills.iter().filter_map(mark).collect();

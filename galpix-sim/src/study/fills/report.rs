@@ -3,10 +3,12 @@
 use serde::Serialize;
 
 use super::figures::{Figures, TruthFigures};
+use crate::metric::measures::Measures;
 use crate::study::crops::{Crop, Largest};
+use crate::study::run::TruthReport;
 use crate::study::timing::Time;
 
-/// The cells of a frame.
+/// The cells of a frame as the warp of the map leaves them, the same for all schemes and fills: those of `none`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FrameCells {
     /// Frames since the update.
@@ -27,6 +29,8 @@ pub struct FrameFigures {
     /// Its figures.
     #[serde(flatten)]
     pub figures: Figures,
+    /// The whole picture, as `galpix run` compares it; without SSIM and FLIP.
+    pub truth: TruthReport,
 }
 
 /// A fill over all frames.
@@ -34,6 +38,11 @@ pub struct FrameFigures {
 pub struct FillReport {
     /// Its name.
     pub name: &'static str,
+    /// The name of its files and marks.
+    #[serde(skip)]
+    pub label: String,
+    /// How galpixels moved.
+    pub scheme: &'static str,
     /// The power of partial validity, where it inpaints.
     pub gamma: Option<&'static str>,
     /// Whether what is nearer is kept out, where it inpaints.
@@ -42,6 +51,8 @@ pub struct FillReport {
     pub time: Option<Time>,
     /// Means over the frames, by disoccluded cells.
     pub summary: Figures,
+    /// Means over the frames, each of them of the whole picture.
+    pub measures: Measures,
     /// The frames with a truth.
     pub frames: Vec<FrameFigures>,
 }

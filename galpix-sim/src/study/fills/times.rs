@@ -1,8 +1,9 @@
 //! The time of a frame with each fill, in the form that the simulator runs: a budget chosen at run time.
 
 use super::case::Case;
+use crate::engine::Scheme;
 use crate::study::job::Job;
-use crate::study::timing::{Effort, Engine, Maker, Time, race};
+use crate::study::timing::{Effort, Engine, Maker, Time, Whole, race};
 
 /// Frames that are timed in a round.
 const FRAMES: u32 = 8;
@@ -14,9 +15,14 @@ const LARGE: usize = 400_000;
 /// Returns the times of a frame of a job, one a fill.
 pub fn of(job: &Job<'_>, cases: &[Case]) -> Vec<Option<Time>> {
     let make = |case: &Case| -> Maker<'_> {
-        let job = job.with_fill(case.fill);
-        let inpaint = case.fill.inpaint();
-        Box::new(move || Some(Box::new(Engine::new(&job.update, job.format, job.settings, inpaint)?)))
+        let (own, update, inpaint) =
+            (job.with_scheme(case.scheme).with_fill(case.fill), &job.update, case.fill.inpaint());
+        match case.scheme {
+            Scheme::Map => Box::new(move || Some(Box::new(Engine::new(update, own.format, own.settings, inpaint)?))),
+            Scheme::Source => {
+                Box::new(move || Some(Box::new(Whole::new(own.engine(), own.format, update, Vec::new()).ok()?)))
+            }
+        }
     };
     let makers: Vec<Maker<'_>> = cases.iter().map(make).collect();
     let rounds = if job.update.samples.len() > LARGE { 1 } else { ROUNDS };

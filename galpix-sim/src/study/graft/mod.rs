@@ -102,7 +102,6 @@ impl Study for Plan {
     type Report = Seen;
     type Extra = NoExtra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
     const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
@@ -123,6 +122,10 @@ impl Study for Plan {
             _ => StudyError::unusable(error),
         })?;
         Ok(Found::Report(Seen { report, pictures }))
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned()]
     }
 
     fn text(&self, seen: &Seen) -> String {

@@ -17,8 +17,9 @@ mod times;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::cells::{Cells, count};
 use super::crops;
-use super::holes::{self, Holes, count};
+use super::holes::{self, Holes};
 use super::job::{ExperimentError, Job, Request};
 use super::{File, Found, Nothing, Silent, Stage, StudyError, Work, run, silent};
 use crate::metric;
@@ -90,8 +91,6 @@ impl super::Study for Plan {
     type Report = SourceReport;
     type Extra = Extra;
 
-    const LEGEND: Option<&'static str> = Some(columns::LEGEND);
-
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
     }
@@ -110,6 +109,10 @@ impl super::Study for Plan {
             Study::NothingHidden => Found::Nothing(Nothing::Hidden),
             Study::Compared(report) => Found::Report(*report),
         })
+    }
+
+    fn legends(&self) -> Vec<String> {
+        vec![columns::LEGEND.to_owned()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -202,14 +205,14 @@ fn show(job: &Job<'_>, strategy: Strategy, holes: &[Holes], wanted: u32) -> Resu
     let mut rest = holes.iter().peekable();
     let report = run::job(&job.with_strategy(strategy).without_perception(), |frame| {
         let Some(holes) = rest.next_if(|holes| holes.frame == frame.frame) else { return };
-        let counts = |cell: usize| frame.truth.is_none_or(|truth| truth.mask.as_ref().is_none_or(|mask| mask[cell]));
-        let missing: Vec<bool> = (0..frame.reached.len()).map(|cell| !frame.reached[cell] && counts(cell)).collect();
-        let inside: Vec<bool> = missing.iter().zip(&holes.disoccluded).map(|(&a, &b)| a && b).collect();
-        let mask = frame.truth.and_then(|truth| truth.mask.as_deref());
+        let Some(truth) = frame.truth else { return };
+        let missing = Cells::of(truth, frame.reached).missing;
+        let disoccluded: Vec<bool> = missing.iter().zip(&holes.disoccluded).map(|(&a, &b)| a && b).collect();
+        let mask = truth.mask.as_deref();
         frames.push(StrategyFrame {
             frame: holes.frame,
             missing: count(&missing),
-            disoccluded: count(&inside),
+            disoccluded: count(&disoccluded),
             psnr_db: metric::psnr_db(frame.picture, &holes.truth, mask),
             flip: metric::flip(frame.picture, &holes.truth, mask),
             disoccluded_db: metric::psnr_db(frame.picture, &holes.truth, Some(&holes.disoccluded)),

@@ -3,58 +3,31 @@
 use super::report::{ChangeReport, PositionReport, TruthReport};
 use crate::engine::Frame;
 use crate::metric;
-use crate::metric::{area, time};
+use crate::metric::time;
 use crate::picture::Picture;
 use crate::source::Source;
+use crate::study::cells::{Cells, count};
 use crate::update::{Truth, Update};
 
-/// Which cells hold a galpixel of the update.
-pub(super) struct Reached<'r> {
-    /// In the scheme that was run.
-    pub reached: &'r [bool],
-    /// As [`Frame::outline`]: the same for all schemes and fills.
-    pub outline: &'r [bool],
+/// A frame whose truth is known, as it is seen.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen<'s> {
+    /// What is shown.
+    pub picture: &'s Picture,
+    /// The truth.
+    pub truth: &'s Truth,
+    /// [`Frame::reached`]: in the scheme and with the fill that was run.
+    pub reached: &'s [bool],
+    /// [`Frame::outline`]: the same for all schemes and fills.
+    pub outline: &'s [bool],
 }
 
-/// Which cells of a frame count, and for what.
-struct Cells {
-    /// Reached by a galpixel of the update.
-    known: Vec<bool>,
-    /// Missing in connection with the border.
-    at_border: Vec<bool>,
-    /// All but those that are missing in connection with the border in the outline: what enters there is known to
-    /// nobody.
-    inside: Vec<bool>,
-    missing: usize,
-}
-
-impl Cells {
-    fn of(truth: &Truth, &Reached { reached, outline }: &Reached<'_>) -> Self {
-        let counted = |cell: usize| truth.mask.as_ref().is_none_or(|mask| mask[cell]);
-        let which = |of: &dyn Fn(usize) -> bool| -> Vec<bool> {
-            (0..reached.len()).map(|cell| counted(cell) && of(cell)).collect()
-        };
-        let missing = which(&|cell| !reached[cell]);
-        let border = |missing: &[bool]| area::at_border(missing, truth.picture.width, truth.picture.height);
-        let (at_border, outside) = (border(&missing), border(&which(&|cell| !outline[cell])));
-        Self {
-            known: which(&|cell| reached[cell]),
-            inside: which(&|cell| !outside[cell]),
-            missing: count(&missing),
-            at_border,
-        }
-    }
-}
-
-fn count(cells: &[bool]) -> usize {
-    cells.iter().filter(|&&cell| cell).count()
-}
-
-/// Compares the frames of a run with the truth, one after the other.
-pub(super) struct Comparison<'h> {
+/// Compares the frames of a run with the truth, one after the other. What every study reports of a picture comes from
+/// here.
+pub(crate) struct Comparison<'h> {
     /// The update's picture.
     hold: &'h Picture,
-    /// Whether SSIM, FLIP and the changes are worked out too.
+    /// Whether SSIM and FLIP are worked out too.
     perceptual: bool,
     before: Before,
 }
@@ -68,50 +41,69 @@ struct Before {
     displacements: Vec<Option<[f64; 2]>>,
 }
 
+impl Before {
+    fn of(&Seen { picture, truth, outline, .. }: &Seen<'_>, cells: &Cells) -> Self {
+        Self {
+            frame: truth.frame,
+            shown: picture.clone(),
+            truth: truth.picture.clone(),
+            inside: Cells::of(truth, outline).inside(),
+            displacements: time::displacements(picture, &truth.picture, Some(&cells.known)),
+        }
+    }
+}
+
 impl<'h> Comparison<'h> {
     /// Begins with the update, which shows the truth.
-    pub(super) fn new(hold: &'h Picture, perceptual: bool) -> Self {
+    pub(crate) fn new(hold: &'h Picture, perceptual: bool) -> Self {
         let inside = vec![true; hold.pixels.len()];
         let before = Before { frame: 0, shown: hold.clone(), truth: hold.clone(), inside, displacements: Vec::new() };
         Self { hold, perceptual, before }
     }
 
-    /// Compares a shown picture with the truth.
-    pub(super) fn frame(&mut self, frame: u32, picture: &Picture, truth: &Truth, reached: &Reached<'_>) -> TruthReport {
+    /// Compares the next frame with the truth.
+    pub(crate) fn frame(&mut self, seen: &Seen<'_>) -> TruthReport {
+        let &Seen { picture, truth, reached, .. } = seen;
         let cells = Cells::of(truth, reached);
+        let now = Before::of(seen, &cells);
         let mask = truth.mask.as_deref();
+        let psnr_db = |picture: &Picture, mask: Option<&[bool]>| metric::psnr_db(picture, &truth.picture, mask);
         let perceptual = |measure: fn(&Picture, &Picture, Option<&[bool]>) -> Option<f64>| {
             self.perceptual.then(|| measure(picture, &truth.picture, mask)).flatten()
         };
-        TruthReport {
-            psnr_db: metric::psnr_db(picture, &truth.picture, mask),
-            psnr_hold_db: metric::psnr_db(self.hold, &truth.picture, mask),
-            psnr_known_db: metric::psnr_db(picture, &truth.picture, Some(&cells.known)),
-            psnr_inside_db: metric::psnr_db(picture, &truth.picture, Some(&cells.inside)),
+        let report = TruthReport {
+            psnr_db: psnr_db(picture, mask),
+            psnr_hold_db: psnr_db(self.hold, mask),
+            psnr_known_db: psnr_db(picture, Some(&cells.known)),
+            psnr_inside_db: psnr_db(picture, Some(&now.inside)),
             ssim: perceptual(metric::ssim),
             flip: perceptual(metric::flip),
-            missing: cells.missing as u64,
-            missing_at_border: count(&cells.at_border) as u64,
-            change: if self.perceptual { self.change(frame, picture, truth, cells) } else { None },
-        }
+            missing: count(&cells.missing),
+            missing_percent: cells.missing_percent(),
+            missing_at_border: count(&cells.at_border()),
+            inside: count(&now.inside),
+            change: change(&self.before, &now),
+        };
+        self.before = now;
+        report
     }
 
-    /// Compares the change from the frame before with the true one. `None` if the truth of that frame is not known.
-    fn change(&mut self, frame: u32, shown: &Picture, truth: &Truth, cells: Cells) -> Option<ChangeReport> {
-        let displacements = time::displacements(shown, &truth.picture, Some(&cells.known));
-        let (shown, truth) = (shown.clone(), truth.picture.clone());
-        let now = Before { frame, shown, truth, inside: cells.inside, displacements };
-        let before = std::mem::replace(&mut self.before, now);
-        let now = &self.before;
-        (now.frame == before.frame + 1).then(|| {
-            let both: Vec<bool> = before.inside.iter().zip(&now.inside).map(|(&before, &now)| before && now).collect();
-            ChangeReport {
-                error: time::change_error([&before.shown, &now.shown], [&before.truth, &now.truth], Some(&both)),
-                truth: metric::change(&before.truth, &now.truth, Some(&both)),
-                judder_px: time::judder(&before.displacements, &now.displacements),
-            }
-        })
+    /// Passes a frame that is only needed for the change to the next.
+    pub(crate) fn pass(&mut self, seen: &Seen<'_>) {
+        self.before = Before::of(seen, &Cells::of(seen.truth, seen.reached));
     }
+}
+
+/// Compares the change from one frame to the next with the true one. `None` if there is a frame between them.
+fn change(before: &Before, now: &Before) -> Option<ChangeReport> {
+    (now.frame == before.frame + 1).then(|| {
+        let both: Vec<bool> = before.inside.iter().zip(&now.inside).map(|(&before, &now)| before && now).collect();
+        ChangeReport {
+            error: time::change_error([&before.shown, &now.shown], [&before.truth, &now.truth], Some(&both)),
+            truth: metric::change(&before.truth, &now.truth, Some(&both)),
+            judder_px: time::judder(&before.displacements, &now.displacements),
+        }
+    })
 }
 
 /// The worst and the mean of some errors.

@@ -7,18 +7,17 @@ mod work;
 use galpix_core::{Format, Tally};
 
 pub use super::job::{ExperimentError, Request, check_strategy};
-pub(crate) use compare::position;
-use compare::{Comparison, Reached};
+pub(crate) use compare::{Comparison, Seen, position};
 pub use report::{BudgetReport, ChangeReport, FrameReport, PositionReport, RunReport, TruthReport};
 pub use work::work_gain;
 
 use super::job::Job;
 use crate::certificate::Certificate;
-use crate::engine::{Frame, HiddenLayer};
+use crate::engine::Frame;
 use crate::metric::stats::median;
 use crate::picture::Picture;
 use crate::source::Source;
-use crate::source::hidden::{self, HiddenReport, Strategy};
+use crate::source::hidden::{HiddenReport, Strategy};
 use crate::update::Truth;
 
 /// What a visitor sees of each frame, the update (frame 0) included.
@@ -49,24 +48,18 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     let Job { source, frames, demand, format, settings, request, .. } = job;
     let update = job.update.as_ref();
     let carried = job.carried()?;
-    let hidden: Vec<HiddenLayer<'_>> = carried.layers.iter().map(hidden::Layer::for_engine).collect();
     let hold = update.picture();
     let mut comparison = Comparison::new(&hold, request.perceptual);
     let mut reports = Vec::with_capacity(*frames as usize);
-    let ran = job.engine().outlined().run_layers(&carried.base, &hidden, *frames, |frame| {
+    let ran = job.engine().outlined().run_layers(&carried.base, &carried.hidden_layers(), *frames, |frame| {
         let picture = frame.picture();
         let truth = source.truth(frame.number);
         let reached = frame.reached();
         visit(&Shown { frame: frame.number, picture: &picture, hold: &hold, truth: truth.as_ref(), reached: &reached });
         if frame.number > 0 {
-            let truth = truth.map(|truth| {
-                comparison.frame(
-                    frame.number,
-                    &picture,
-                    &truth,
-                    &Reached { reached: &reached, outline: &frame.outline() },
-                )
-            });
+            let outline = frame.outline();
+            let seen = |truth| Seen { picture: &picture, truth, reached: &reached, outline: &outline };
+            let truth = truth.as_ref().map(|truth| comparison.frame(&seen(truth)));
             let position = compare::position(source, update, frame, |origin| carried.first(origin));
             let report = report(frame, position, truth);
             let hidden = || frame.origins().filter(|&origin| carried.is_hidden(origin)).count() as u32;

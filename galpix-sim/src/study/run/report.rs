@@ -5,6 +5,8 @@ use serde::Serialize;
 
 use crate::certificate::Certificate;
 use crate::engine::LoadTally;
+use crate::metric::measures::Measures;
+use crate::output::measures::Measured;
 use crate::source::capture::Census;
 use crate::source::hidden::HiddenReport;
 
@@ -71,12 +73,30 @@ pub struct TruthReport {
     pub ssim: Option<f64>,
     /// Mean FLIP.
     pub flip: Option<f64>,
-    /// Cells of the truth that no galpixel of the update reached.
+    /// Cells of the truth that no galpixel of the update reached, before anything was put there.
     pub missing: u64,
-    /// Of these, how many are connected with the border: what enters the picture.
+    /// The same, per cent of the cells that the truth counts.
+    pub missing_percent: f64,
+    /// Of the missing cells, how many are connected with the border: what enters the picture.
     pub missing_at_border: u64,
+    /// Cells that `psnr_inside_db` is over: the same for all schemes and fills.
+    pub inside: u64,
     /// Against the frame before, where its truth is known too.
     pub change: Option<ChangeReport>,
+}
+
+impl TruthReport {
+    /// Returns what every table has of it.
+    #[must_use]
+    pub fn measures(&self) -> Measures {
+        Measures {
+            psnr_db: self.psnr_db,
+            psnr_inside_db: self.psnr_inside_db,
+            change_error: self.change.and_then(|change| change.error),
+            judder_px: self.change.and_then(|change| change.judder_px),
+            missing_percent: Some(self.missing_percent),
+        }
+    }
 }
 
 /// How a frame differs from the one before, against how the truths differ: over the cells that are inside in both.
@@ -139,6 +159,12 @@ pub struct FrameReport {
     pub truth: Option<TruthReport>,
 }
 
+impl Measured for FrameReport {
+    fn measures(&self) -> Measures {
+        self.truth.as_ref().map(TruthReport::measures).unwrap_or_default()
+    }
+}
+
 /// A whole run.
 #[derive(Clone, Debug, Serialize)]
 pub struct RunReport {
@@ -173,4 +199,10 @@ pub struct RunReport {
     pub certificate: Certificate,
     /// The frames from 1 on.
     pub frames: Vec<FrameReport>,
+}
+
+impl Measured for RunReport {
+    fn measures(&self) -> Measures {
+        Measures::mean(self.frames.iter().map(FrameReport::measures))
+    }
 }
