@@ -243,7 +243,7 @@ impl Extrapolation {
         if scheme == Scheme::Source {
             if !scheme.takes(fill) {
                 let sentence = format!(
-                    "`--fill {}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull",
+                    "`--fill {}` is for `--scheme map`: stationary sources take none, hold, extend, push-pull or metamer",
                     fill.name()
                 );
                 return Err(CliError::unusable(sentence));
