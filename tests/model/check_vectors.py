@@ -470,6 +470,24 @@ def check_subcell(case, where, differences):
     return Checked(0, len(shown)), arrays
 
 
+def read_source_inpainting(case, where, cells, arrays):
+    """How the cells of a source without an entry are inpainted; None where they are not."""
+    if "inpaint" not in case:
+        return None
+    where = f"{where}, inpaint"
+    inpaint = get(case, "inpaint", dict, where)
+    mask = get_words(inpaint, "mask", where, -(-cells // 32) if inpaint.get("mask") else 0)
+    if mask:
+        arrays["mask"] = mask
+    texture = None
+    if inpaint.get("texture") is not None:
+        of = get(inpaint, "texture", dict, where)
+        texture = model.Texture(get_int(of, "levels", where), get_choice(of, "noise", model.NOISE_FACTORS, where),
+                                get(of, "coloured", bool, where), get_int(of, "seed", where))
+    return model.SourceInpainting(get_choice(inpaint, "gamma", model.GAMMAS, where),
+                                  get_int(inpaint, "threshold", where), mask or None, texture)
+
+
 def check_source(case, where, differences):
     engine = read_engine(case, where)
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
@@ -490,7 +508,8 @@ def check_source(case, where, differences):
     for _ in range(steps):
         sources, saturated = model.step_sources(sources, rounding, n)      # the counts are those of the last step
         n = (n + 1) % WORD
-    shown = model.show_sources(sources, fill_mode, sub_cell)
+    inpainting = read_source_inpainting(case, where, cells, arrays)
+    shown = model.show_sources(sources, fill_mode, sub_cell, inpainting)
     numbers = 0
     for number, (entry, layer) in enumerate(zip(entries, sources.layers)):
         here = f"{where}, layer {number}"
@@ -506,6 +525,16 @@ def check_source(case, where, differences):
            "entries": [model.entry_word(entry) for entry in shown.entries], "gathered": shown.gathered}
     if sub_cell:
         got["shown"] = shown.colours
+    if inpainting is not None:
+        inpaint = case["inpaint"]
+        known = model.edge_words(shown.picture.known)
+        arrays["known"] = get_words(inpaint, "known", where, len(known))
+        compare_numbers("word of known cells", arrays["known"], known, where, differences)
+        for name, words in (("depths", shown.picture.depths),
+                            ("moved", [model.displacement_word(place) for place in shown.picture.moved])):
+            arrays[name] = get_words(inpaint, name, where, cells)
+            compare_numbers(name, arrays[name], words, where, differences)
+        numbers += len(known) + 2 * cells
     for name, words in got.items():
         arrays[name] = get_words(case, name, where, cells)
         compare_numbers(name, arrays[name], words, where, differences)
@@ -528,7 +557,8 @@ COMPARED = {
     "objects": "records, maps, counts",
     "disocclusion": "records, extents as marked and as spread, masks, counts",
     "subcell": "records, colours shown",
-    "source": "records, links, galpixels and displacements after steps, entries, colours gathered and shown, counts",
+    "source": "records, links, galpixels and displacements after steps, entries, what is inpainted, colours gathered "
+              "and shown, counts",
 }
 
 

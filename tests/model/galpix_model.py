@@ -1326,6 +1326,214 @@ def inpaint(engine, inpainting, mask, before, edges, thresholds, after):
     return result
 
 
+# --- 15. Metamers ----------------------------------------------------------------------------------------------------
+
+MOST_LEVELS = 8
+NOISE_FACTORS = {"deviation": 55147, "interval": 13148}
+TONE_LIMIT = 1020
+MOMENTS = 12        # of each of the six bands E and Q
+
+Texture = namedtuple("Texture", "levels noise coloured seed")
+# A picture of sections 14 and 15: of each cell the channels, whether it is known, whether it is to be filled, its depth
+# and its movement (x, y).
+Picture = namedtuple("Picture", "columns rows channels known holes depths moved")
+
+
+def smooth(a, b, c, d, e):
+    """Section 15, responses."""
+    return a + 4 * b + 22 * c + 4 * d + e
+
+
+def sharp(a, b, c, d, e):
+    """Section 15, responses."""
+    return 10 * c - a - 4 * b - 4 * d - e
+
+
+def bands(p):
+    """Section 15, responses: (K_x, K_y) of five rows of five numbers."""
+    smoothed = [smooth(*(p[j][i] for j in range(5))) + 16 >> 5 for i in range(5)]
+    sharpened = [sharp(*(p[j][i] for j in range(5))) + 16 >> 5 for i in range(5)]
+    return sharp(*smoothed) + 2 >> 2, smooth(*sharpened) + 2 >> 2
+
+
+def tone_of(colour, format_name):
+    """Section 15, tones: of a stored colour."""
+    red, green, blue = shown_rgb(colour, format_name)
+    return red + 2 * green + blue - 510, 4 * (blue - green), 4 * (red - green)
+
+
+def colour_of_tone(tone, format_name):
+    """Section 15, holes: the stored colour of a tone."""
+    y, cb, cr = tone
+    g = y + 510 - (cb + cr + 2 >> 2)
+    levels = []
+    bits = FORMATS[format_name].channels
+    for q, b in zip((g + cr, g, g + cb), bits if len(bits) == 3 else bits * 3):
+        level = q + 2 >> 2
+        if not 0 <= level <= 255:
+            reached["15 level clamped"] += 1
+        level = clamp(level, 0, 255)
+        levels.append(level - (level >> b) + ((1 << (8 - b)) >> 1))
+    return colour_from_rgb(*levels, format_name)
+
+
+def statistics_of(tones, gamma, limit):
+    """Section 15, responses and moments: level 1 of the moments of a level of tones, with mu and sigma as values."""
+    nodes = []
+    for cell, node in enumerate(tones.nodes):
+        y, x = divmod(cell, tones.columns)
+        window = [[tones.nodes[clamp(y + j, 0, tones.rows - 1) * tones.columns + clamp(x + i, 0, tones.columns - 1)]
+                   for i in range(-2, 3)] for j in range(-2, 3)]
+        cells = [of for row in window for of in row]
+        depths = [of.depth for of in cells]
+        if min(of.validity for of in cells) < 16:
+            reached["15 response not known: validity"] += 1
+        elif max(depths) - min(depths) > limit:
+            reached["15 response not known: depth"] += 1
+        else:
+            reached["15 response known"] += 1
+            found = [response for channel in range(3)
+                     for response in bands([[of.values[channel] for of in row] for row in window])]
+            nodes.append(Node(16, node.depth, tuple(found + [x * x for x in found]), cell))
+            continue
+        nodes.append(Node(0, node.depth, None, None))
+    levels = [Stored(tones.columns, tones.rows, nodes)]
+    while len(levels[-1].nodes) > 1:
+        levels.append(pull(levels[-1], len(levels), gamma, limit))
+    for k in range(len(levels) - 2, 0, -1):
+        levels[k] = push(levels[k], levels[k + 1], k, limit)
+    return levels[1]._replace(nodes=[node if node.validity == 0 else node._replace(values=mu_and_sigma(node.values))
+                                     for node in levels[1].nodes])
+
+
+def mu_and_sigma(moments):
+    """Section 15, moments: mu of all bands, then sigma of all bands."""
+    means, squares = moments[:MOMENTS // 2], moments[MOMENTS // 2:]
+    deviations = []
+    for e, q in zip(means, squares):
+        variance = max(0, q - e * e)
+        root = isqrt(variance)
+        deviations.append(root + 1 if variance > root * root + root else root)
+    return (*means, *deviations)
+
+
+def white(x, y, k, seed):
+    """Section 15, noise: of the three channels at a place."""
+    modulus = 1 << 32
+    h = (0x9E3779B1 * x + 0x85EBCA77 * y + 0xC2B2AE3D * k + 0x27D4EB2F * seed) % modulus
+    h = 0x7FEB352D * (h ^ h >> 16) % modulus
+    h = 0x846CA68B * (h ^ h >> 15) % modulus
+    h ^= h >> 16
+    return [8 * (h >> 8 * c & 255) - 1020 for c in range(3)]
+
+
+def noise_from(place, moved, k):
+    """Section 15, where the noise is taken: in column or row, before modulo 2^32."""
+    half = 1 << k >> 1
+    return place - (min(moved + half, (1 << 31) - 1) >> k)
+
+
+def detailed(tone, x, y, k, moved, statistics, texture):
+    """Section 15, sum: a tone of level k with the level's detail."""
+    column, row = noise_from(x, moved[0], k), noise_from(y, moved[1], k)
+    field = [[white(column + i, row + j, k, texture.seed) for i in range(-2, 3)] for j in range(-2, 3)]
+    result = []
+    for channel, start in enumerate(tone):
+        noisy = channel == 0 or texture.coloured
+        total = 0
+        responses = bands([[place[channel] for place in line] for line in field])
+        for band, response in enumerate(responses):
+            mu, sigma = statistics[2 * channel + band], statistics[MOMENTS // 2 + 2 * channel + band]
+            xi = response * NOISE_FACTORS[texture.noise] + (1 << 15) >> 16
+            total += (sigma * xi if noisy else 0) + (mu << 10)
+        value = start + (total + (1 << 11) >> 12)
+        if abs(value) > TONE_LIMIT:
+            reached["15 channel clamped"] += 1
+        result.append(clamp(value, -TONE_LIMIT, TONE_LIMIT))
+    reached[f"15 detail, {'moved' if any(moved) else 'not moved'}"] += 1
+    return tuple(result)
+
+
+def metamers(engine, inpainting, texture, picture):
+    """Section 15: the colours of the holes of a picture, by cell."""
+    name, limit, gamma = engine.layout.colour, inpainting.threshold, inpainting.gamma
+    nodes = [Node(16, depth, tone_of(join_channels(channels, name), name), cell) if known else
+             Node(0, depth, None, None)
+             for cell, (channels, known, depth) in enumerate(zip(picture.channels, picture.known, picture.depths))]
+    levels = [Stored(picture.columns, picture.rows, nodes)]
+    while len(levels[-1].nodes) > 1:
+        levels.append(pull(levels[-1], len(levels), gamma, limit))
+    top = len(levels) - 1
+    last = min(clamp(texture.levels, 1, MOST_LEVELS), top)
+    reached["15 a single cell" if last == 0 else "15 L is top" if last == top else "15 L below top"] += 1
+    if last == 0:
+        return {}
+    reached[f"15 noise by {texture.noise}{', coloured' if texture.coloured else ''}"] += 1
+    statistics = [statistics_of(levels[k], gamma, limit) for k in range(last)]
+    for k in range(top - 1, last - 1, -1):
+        levels[k] = push(levels[k], levels[k + 1], k, limit)
+
+    def taken(x, y, depth, k):
+        """What a cell of level k takes: (tone, source), or None."""
+        found = sample(levels[k + 1], x, y, depth, k, limit)
+        if found is None:
+            reached["15 no sample of tones"] += 1
+            return None
+        tone, source = found
+        of_level = sample(statistics[k], x, y, depth, 0, limit)
+        if of_level is None:
+            reached["15 no sample of statistics"] += 1
+            return found
+        return detailed(tone, x, y, k, picture.moved[source], of_level[0], texture), source
+
+    for k in range(last - 1, 0, -1):
+        result = []
+        for cell, node in enumerate(levels[k].nodes):
+            y, x = divmod(cell, levels[k].columns)
+            found = taken(x, y, node.depth, k) if node.validity < 16 else None
+            if found is not None:
+                tone, source = found
+                if node.validity:
+                    reached["15 cell takes a mean"] += 1
+                    tone, source = weighted_mean([node.values, tone], [node.validity, 16 - node.validity],
+                                                 [node.source, source], tie_at(x, y, k))
+                else:
+                    reached["15 cell takes the sum"] += 1
+                node = Node(16, node.depth, tone, source)
+            result.append(node)
+        levels[k] = levels[k]._replace(nodes=result)
+    filled = {}
+    for cell in range(len(nodes)):
+        if picture.holes[cell]:
+            y, x = divmod(cell, picture.columns)
+            found = taken(x, y, nodes[cell].depth, 0)
+            if found is not None:
+                filled[cell] = colour_of_tone(found[0], name)
+    return filled
+
+
+def push_pull_picture(engine, inpainting, picture):
+    """Section 14: the colours of the holes of a picture, by cell."""
+    form, limit = FORMATS[engine.layout.colour], inpainting.threshold
+    nodes = [Node(16, depth, tuple(c << (10 - bits) for c, bits in zip(channels, form.channels)), cell) if known else
+             Node(0, depth, None, None)
+             for cell, (channels, known, depth) in enumerate(zip(picture.channels, picture.known, picture.depths))]
+    levels = [Stored(picture.columns, picture.rows, nodes)]
+    while len(levels[-1].nodes) > 1:
+        levels.append(pull(levels[-1], len(levels), inpainting.gamma, limit))
+    for k in range(len(levels) - 2, 0, -1):
+        levels[k] = push(levels[k], levels[k + 1], k, limit)
+    filled = {}
+    for cell in range(len(nodes)):
+        if picture.holes[cell] and len(levels) > 1:
+            y, x = divmod(cell, picture.columns)
+            found = sample(levels[1], x, y, nodes[cell].depth, 0, limit)
+            if found is not None:
+                channels = [(c + (1 << (9 - bits))) >> (10 - bits) for c, bits in zip(found[0], form.channels)]
+                filled[cell] = join_channels(channels, engine.layout.colour)
+    return filled
+
+
 # --- 16. Layers ------------------------------------------------------------------------------------------------------
 
 Layer = namedtuple("Layer", "own stored displacements has_winners has_edges")
@@ -2537,6 +2745,46 @@ def fill_sources(sources, entries, colours, fill_mode):
     return result
 
 
+SourceInpainting = namedtuple("SourceInpainting", "gamma threshold mask texture")   # a mask of None: none
+
+
+def picture_of(sources, entries, mask, channels):
+    """Section 21, fill: the picture that is inpainted."""
+    grid = sources.engine.grid
+    width = columns(grid)
+    base = sources.layers[0].galpixels
+    known, holes, depths, moved = [], [], [], []
+    for cell, entry in enumerate(entries):
+        row = cell // width
+        if entry is not None:
+            stored = entry.number % len(base)
+            depths.append(entry.depth)
+            moved.append((cell % width - stored % width, row - stored // width))
+        else:
+            ends = [next((entries[at].depth for at in way if entries[at] is not None), 0)
+                    for way in (range(cell - 1, row * width - 1, -1), range(cell + 1, (row + 1) * width))]
+            depths.append(max(ends))
+            moved.append((0, 0))
+            reached["21 inpainted: a cell of class 3 is known" if base[cell]["class"] == EMPTY else
+                    "21 inpainted: a hole"] += 1
+        known.append(entry is not None or base[cell]["class"] == EMPTY)
+        holes.append(not known[-1] and (mask is None or is_masked(mask, cell)))
+    return Picture(width, rows(grid), channels, known, holes, depths, moved)
+
+
+def inpaint_sources(sources, inpainting, picture):
+    """Section 21, fill: the channels of all cells, inpainted."""
+    name = sources.engine.layout.colour
+    if inpainting.texture is None:
+        reached["21 inpainted by push-pull"] += 1
+        filled = push_pull_picture(sources.engine, inpainting, picture)
+    else:
+        reached["21 inpainted by metamers"] += 1
+        filled = metamers(sources.engine, inpainting, inpainting.texture, picture)
+    return [split_channels(filled[cell], name) if cell in filled else channels
+            for cell, channels in enumerate(picture.channels)]
+
+
 def reach_towards(sources, entry, side):
     """Section 21, silhouettes: the reach of an entry towards a side, in sixteenths of a cell."""
     grid = sources.engine.grid
@@ -2598,11 +2846,12 @@ def source_silhouettes(sources, entries, gathered):
     return result
 
 
-Shown = namedtuple("Shown", "entries gathered colours counts")
+Shown = namedtuple("Shown", "entries gathered colours counts picture")
 
 
-def show_sources(sources, fill_mode, sub_cell):
-    """Section 21: what the cells of the map show; `colours` is None without sub-cell scan-out."""
+def show_sources(sources, fill_mode, sub_cell, inpainting=None):
+    """Section 21: what the cells of the map show; `colours` is None without sub-cell scan-out, `picture` what is
+    inpainted."""
     first, moved, lost = all_entries(sources)
     entries = close_cracks(sources, first)
     holes = [cell for cell, entry in enumerate(first) if entry is None]
@@ -2613,12 +2862,17 @@ def show_sources(sources, fill_mode, sub_cell):
     colours = [None if entry is None else colour_of_entry(sources, entries, cell, sub_cell)
                for cell, entry in enumerate(entries)]
     gathered = fill_sources(sources, entries, colours, fill_mode)
+    picture = None
+    if inpainting is not None:
+        picture = picture_of(sources, entries, inpainting.mask, gathered)
+        gathered = inpaint_sources(sources, inpainting, picture)
     reached["21 with sub-cell scan-out" if sub_cell else "21 without sub-cell scan-out"] += 1
     words = [join_channels(channels, sources.engine.layout.colour) for channels in gathered]
     if not sub_cell:
-        return Shown(entries, words, None, counts)
+        return Shown(entries, words, None, counts, picture)
     after = source_silhouettes(sources, entries, gathered)
-    return Shown(entries, words, [join_channels(channels, sources.engine.layout.colour) for channels in after], counts)
+    shown = [join_channels(channels, sources.engine.layout.colour) for channels in after]
+    return Shown(entries, words, shown, counts, picture)
 
 
 def entry_key(entry):
@@ -2719,6 +2973,11 @@ def rule_names():
               "14 push: no sample, nothing", "14 push: no sample, stays", "14 push: mean, of itself most",
               "14 push: mean, halves", "14 push: mean, of the sample most", "14 hole takes colour and motion",
               "14 hole takes colour alone", "14 hole without a sample", "14 map of one cell"]
+    names += [f"15 noise by {scale}{coloured}" for scale in NOISE_FACTORS for coloured in ("", ", coloured")]
+    names += ["15 level clamped", "15 channel clamped", "15 response known", "15 response not known: validity",
+              "15 response not known: depth", "15 detail, moved", "15 detail, not moved", "15 a single cell",
+              "15 L is top", "15 L below top", "15 no sample of tones", "15 no sample of statistics",
+              "15 cell takes a mean", "15 cell takes the sum"]
     names += ["17 frames above 255", "17 separation above 2^30", "17 tears count", "17 tears do not count",
               "17 surfaces let through", "17 surfaces not let through", "17 body of class 3"]
     names += [f"17 border {border}" for border in BORDERS]
@@ -2817,6 +3076,8 @@ def rule_names():
               "21 fill extend: equal depths, left", "21 fill extend: left is farther",
               "21 fill extend: right is farther"]
     names += [f"21 fill hold, class {klass}: stored" for klass in range(4)]
+    names += ["21 inpainted: a cell of class 3 is known", "21 inpainted: a hole", "21 inpainted by push-pull",
+              "21 inpainted by metamers"]
     names += [f"21 reach: from the sample {side}" for side in SIDES]
     names += ["21 reach of another sample", "21 reach of another sample, moved across"]
     names += ["21 reach: beyond 8, not linked", "21 reach: does not end"]

@@ -220,6 +220,7 @@ passes! {
         known: &mut [u32],
         depths: &mut [u32],
     ) = row::known;
+    fn sources_moved(sources: &Sources<'_, '_, Self>, y: u32, moved: &mut [u32]) = row::moved;
     fn sources_finish(
         sources: &Sources<'_, '_, Self>,
         y: u32,

@@ -31,7 +31,8 @@ impl Levels {
     /// Returns the levels of a picture of `width` x `height` cells, each 1 to 32768.
     #[must_use]
     pub const fn new(width: u32, height: u32) -> Self {
-        let mut levels = [Level { width, height, start: 0 }; MOST + 1];
+        let mut levels = [Level { width: 0, height: 0, start: 0 }; MOST + 1];
+        levels[0] = Level { width, height, start: 0 };
         let (mut level, mut start, mut size) = (0, 0, (width, height));
         while level < MOST && (size.0 > 1 || size.1 > 1) {
             size = (size.0.div_ceil(2), size.1.div_ceil(2));
@@ -90,6 +91,7 @@ mod tests {
             let top = levels.level(levels.top());
             assert_eq!((top.width, top.height), (1, 1));
             assert_eq!(levels.cells(), start as usize);
+            assert!((levels.top() + 1..20).all(|beyond| levels.level(beyond) == Level::default()));
         }
         assert_eq!(Levels::new(1, 1).cells(), 0);
         assert_eq!(Levels::new(128, 64).cells(), 2048 + 512 + 128 + 32 + 8 + 2 + 1);

@@ -6,9 +6,9 @@ use super::metamer::Metamer;
 #[cfg(feature = "check")]
 use super::metamer::reference::metamers as metamers_by_reference;
 use super::metamer::tone::Tone;
-use super::paint::{Moving, Tint, TintOf};
+use super::paint::{Moving, OfCell, Tint};
 use super::push_pull::{Holed, Motion, PushPull, RUN};
-use super::pyramid::{DEPTH_BITS, Stored};
+use super::pyramid::DEPTH_BITS;
 #[cfg(feature = "check")]
 use super::reference;
 use super::settings::Inpainting;
@@ -17,82 +17,12 @@ use crate::error::SetupError;
 #[cfg(feature = "check")]
 use crate::fast::check;
 use crate::format::Format;
-use crate::format::colour::Colour;
 use crate::format::record::Words;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
 /// Cells that are looked at once.
 const LOOK: usize = 32;
-
-/// What of a galpixel is filled in.
-pub trait OfGalpixel: Stored {
-    /// A colour format looked up: how values are taken from colours whose format is no constant.
-    type Table: Copy;
-
-    /// Looks a format up.
-    fn table(format: &Colour) -> Self::Table;
-
-    /// Returns what a cell of this colour holds, for a format that is a constant.
-    fn of(format: &Colour, colour: u32, cell: u32) -> Self;
-
-    /// Returns what a cell of this colour holds, for any format.
-    fn looked_up(table: &Self::Table, colour: u32, cell: u32) -> Self;
-
-    /// Returns the words of a hole that held `words` and gets this.
-    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words;
-}
-
-/// The colour alone: the motion stays the one that the fill mode gave.
-impl OfGalpixel for Tint {
-    type Table = TintOf;
-
-    #[inline(always)]
-    fn table(format: &Colour) -> TintOf {
-        TintOf::new(format)
-    }
-
-    #[inline(always)]
-    fn of(format: &Colour, colour: u32, _: u32) -> Self {
-        Self::of(format, colour)
-    }
-
-    #[inline(always)]
-    fn looked_up(table: &TintOf, colour: u32, _: u32) -> Self {
-        table.tint(colour)
-    }
-
-    #[inline(always)]
-    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, mut words: Words) -> Words {
-        map.record().colour().set(&mut words, self.colour(map.record().colour_format()));
-        words
-    }
-}
-
-/// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
-impl OfGalpixel for Moving {
-    type Table = TintOf;
-
-    #[inline(always)]
-    fn table(format: &Colour) -> TintOf {
-        TintOf::new(format)
-    }
-
-    #[inline(always)]
-    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
-        Self { tint: Tint::of(format, colour), source: cell }
-    }
-
-    #[inline(always)]
-    fn looked_up(table: &TintOf, colour: u32, cell: u32) -> Self {
-        Self { tint: table.tint(colour), source: cell }
-    }
-
-    #[inline(always)]
-    fn put_into<F: Format>(self, map: &Galpixmap<'_, F>, words: Words) -> Words {
-        OfGalpixel::put_into(self.tint, map, moving_as(map, self.source, words))
-    }
-}
 
 /// Fills the holes of a map by push-pull: how many were filled.
 pub(crate) fn push_pull<F: Format>(
@@ -106,7 +36,7 @@ pub(crate) fn push_pull<F: Format>(
     }
 }
 
-fn fill<F: Format, V: OfGalpixel>(
+fn fill<F: Format, V: OfCell>(
     map: &mut Galpixmap<'_, F>,
     inpainting: &Inpainting<'_>,
     push_pull: &mut PushPull<'_>,
@@ -147,7 +77,7 @@ pub(crate) fn metamers<F: Format>(
 
 /// Returns the words of a galpixel with class and depth of the hole that held `words`.
 #[inline(always)]
-pub(super) fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: Words) -> Words {
+fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: Words) -> Words {
     let record = map.record();
     let mut moving = map.words_at(source).unwrap_or(words);
     for field in [record.class(), record.depth()] {
@@ -157,7 +87,7 @@ pub(super) fn moving_as<F: Format>(map: &Galpixmap<'_, F>, source: u32, words: W
 }
 
 /// A galpixmap whose cells of class just unobscured are its holes.
-pub struct Uncovered<'m, 'p, F, V: OfGalpixel> {
+pub struct Uncovered<'m, 'p, F, V: OfCell> {
     pub(super) map: &'m mut Galpixmap<'p, F>,
     /// A bit for each cell; empty for all of them.
     mask: &'m [u32],
@@ -165,7 +95,7 @@ pub struct Uncovered<'m, 'p, F, V: OfGalpixel> {
     table: V::Table,
 }
 
-impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
+impl<'m, 'p, F: Format, V: OfCell> Uncovered<'m, 'p, F, V> {
     /// Takes the holes of `map` whose bit of `mask` is set: bit `c mod 32` of word `c / 32` for cell `c`. An empty mask
     /// stands for all of them, and beyond the end of one no hole is filled.
     pub fn new(map: &'m mut Galpixmap<'p, F>, mask: &'m [u32]) -> Self {
@@ -203,6 +133,16 @@ impl<'m, 'p, F: Format, V: OfGalpixel> Uncovered<'m, 'p, F, V> {
         self.map.class(cell) == Class::JustUnobscured && (self.mask.is_empty() || in_mask())
     }
 
+    /// Gives a hole a colour, and with one that has a source position in the cell, motion and tag of that galpixel.
+    #[inline(always)]
+    pub(super) fn set(&mut self, cell: u32, value: V) {
+        let record = self.map.record();
+        let words = self.map.words_at(cell).unwrap_or_default();
+        let mut words = value.source().map_or(words, |source| moving_as(self.map, source, words));
+        record.colour().set(&mut words, value.colour(record.colour_format()));
+        self.map.put(cell, &words);
+    }
+
     /// Calls `hole` with column, row and cell of each hole that is to be filled, row by row.
     #[inline(always)]
     pub(super) fn each_hole(&mut self, mut hole: impl FnMut(&mut Self, u32, u32, u32)) {
@@ -229,7 +169,7 @@ pub(super) fn pyramid_depth(depth: u32, bits: u32) -> u32 {
     depth >> bits.saturating_sub(DEPTH_BITS)
 }
 
-impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
+impl<F: Format, V: OfCell> Holed for Uncovered<'_, '_, F, V> {
     type Value = V;
 
     fn size(&self) -> [u32; 2] {
@@ -313,9 +253,7 @@ impl<F: Format, V: OfGalpixel> Holed for Uncovered<'_, '_, F, V> {
         let mut filled = 0;
         self.each_hole(|uncovered, x, y, cell| {
             if let Some(value) = value(uncovered, x, y) {
-                let words = uncovered.map.words_at(cell).unwrap_or_default();
-                let words = value.put_into(uncovered.map, words);
-                uncovered.map.put(cell, &words);
+                uncovered.set(cell, value);
                 filled += 1;
             }
         });

@@ -8,6 +8,27 @@ use crate::format::colour::Colour;
 /// Bits of a channel in a pyramid: eight, and two of a fraction. Narrower channels have more bits of a fraction.
 const CHANNEL_BITS: u32 = 10;
 
+/// What of a cell is filled in, as it follows from its colour.
+pub trait OfCell: Stored {
+    /// A colour format looked up: how values are taken from colours whose format is no constant.
+    type Table: Copy;
+
+    /// Looks a format up.
+    fn table(format: &Colour) -> Self::Table;
+
+    /// Returns what a cell of this colour holds, for a format that is a constant.
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self;
+
+    /// Returns what a cell of this colour holds, for any format.
+    fn looked_up(table: &Self::Table, colour: u32, cell: u32) -> Self;
+
+    /// Returns the stored colour nearest to it.
+    fn colour(self, format: &Colour) -> u32;
+
+    /// Returns the cell whose motion goes with the colour; none where a hole keeps the one that the fill mode gave.
+    fn source(self) -> Option<u32>;
+}
+
 /// Up to three channels of ten bits, the first one highest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Tint(u32);
@@ -119,6 +140,36 @@ impl Stored for Tint {
     }
 }
 
+/// The colour alone.
+impl OfCell for Tint {
+    type Table = TintOf;
+
+    #[inline(always)]
+    fn table(format: &Colour) -> TintOf {
+        TintOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(format: &Colour, colour: u32, _: u32) -> Self {
+        Self::of(format, colour)
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &TintOf, colour: u32, _: u32) -> Self {
+        table.tint(colour)
+    }
+
+    #[inline(always)]
+    fn colour(self, format: &Colour) -> u32 {
+        self.colour(format)
+    }
+
+    #[inline(always)]
+    fn source(self) -> Option<u32> {
+        None
+    }
+}
+
 impl Value for Tint {
     #[inline(always)]
     fn mean(values: &[Self; 4], weights: &[u32; 4], tie: u32) -> Self {
@@ -183,6 +234,36 @@ impl Stored for Moving {
     #[inline(always)]
     fn decode(&[meta, tint, source]: &Self::Cell) -> (u32, Self) {
         (meta, Self { tint: Tint(tint), source })
+    }
+}
+
+/// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
+impl OfCell for Moving {
+    type Table = TintOf;
+
+    #[inline(always)]
+    fn table(format: &Colour) -> TintOf {
+        TintOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { tint: Tint::of(format, colour), source: cell }
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &TintOf, colour: u32, cell: u32) -> Self {
+        Self { tint: table.tint(colour), source: cell }
+    }
+
+    #[inline(always)]
+    fn colour(self, format: &Colour) -> u32 {
+        self.tint.colour(format)
+    }
+
+    #[inline(always)]
+    fn source(self) -> Option<u32> {
+        Some(self.source)
     }
 }
 

@@ -3,10 +3,11 @@
 #[cfg(feature = "check")]
 extern crate std;
 
-use super::kernel::{Known, Value};
+use super::kernel::{Known, each};
 use super::mean::tie;
-use super::paint::{Tint, TintOf};
+use super::paint::OfCell;
 use super::push_pull::{Holed, RUN};
+use super::pyramid::DEPTH_BITS;
 use super::validity::FULL;
 use crate::error::SetupError;
 use crate::format::colour::Colour;
@@ -17,10 +18,9 @@ pub struct Picture<'p> {
     width: u32,
     height: u32,
     format: Colour,
-    tint_of: TintOf,
-    colours: &'p mut [u32],
+    pub(super) colours: &'p mut [u32],
     known: &'p [u32],
-    depths: &'p [u32],
+    pub(super) depths: &'p [u32],
 }
 
 /// Cells of a word of a mask.
@@ -48,27 +48,34 @@ impl<'p> Picture<'p> {
         let cells = (width * height) as usize;
         enough("picture", colours.len(), cells)?;
         enough("mask", known.len(), cells.div_ceil(WORD as usize))?;
-        Ok(Self { width, height, format, tint_of: TintOf::new(&format), colours, known, depths: &[] })
+        Ok(Self { width, height, format, colours, known, depths: &[] })
     }
 
-    /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer.
+    /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer. Larger ones count as the largest.
     ///
     /// *Errors:* a slice that is too short.
     pub fn with_depths(self, depths: &'p [u32]) -> Result<Self, SetupError> {
-        enough("depth", depths.len(), (self.width * self.height) as usize)?;
+        enough("depth", depths.len(), self.cells())?;
         Ok(Self { depths, ..self })
     }
 
-    /// Returns the bits of the mask from `cell` on, up to the end of its word.
-    #[inline(always)]
-    fn bits(&self, cell: u32) -> u32 {
-        self.known.get((cell / WORD) as usize).map_or(0, |word| word >> (cell % WORD))
+    /// Returns the number of cells.
+    const fn cells(&self) -> usize {
+        (self.width * self.height) as usize
     }
 
-    /// Returns the colours.
-    #[cfg(feature = "check")]
-    pub(super) const fn colours(&self) -> &[u32] {
-        self.colours
+    /// Checks that there is a displacement of each cell, or none at all.
+    ///
+    /// *Errors:* a slice that is too short.
+    pub(super) fn check_moved(&self, moved: &[u32]) -> Result<(), SetupError> {
+        if moved.is_empty() { Ok(()) } else { enough("plane of displacements", moved.len(), self.cells()) }
+    }
+
+    /// Returns the holes whose bit of `mask` is set, all of them if it is empty, in a picture that has moved by so much
+    /// in each cell, see [`Holes::moved`].
+    pub(super) fn holes<'h, V: OfCell>(&'h mut self, mask: &'h [u32], moved: &'h [u32]) -> Holes<'h, V> {
+        let table = V::table(&self.format);
+        Holes { picture: Picture { colours: &mut *self.colours, ..*self }, table, mask, moved }
     }
 
     /// Runs a pass over a copy of the picture; returns the colours that the copy has afterwards, and what the pass
@@ -81,69 +88,135 @@ impl<'p> Picture<'p> {
     }
 }
 
-impl Holed for Picture<'_> {
-    type Value = Tint;
+/// The holes of a picture, and what they are filled with.
+#[derive(Debug)]
+pub struct Holes<'p, V: OfCell> {
+    pub(super) picture: Picture<'p>,
+    /// The colour format, looked up.
+    pub(super) table: V::Table,
+    /// A bit for each cell; empty for all of them.
+    mask: &'p [u32],
+    /// A word for each cell of how far what it shows has moved; empty where nothing has.
+    pub(super) moved: &'p [u32],
+}
 
-    fn size(&self) -> [u32; 2] {
-        [self.width, self.height]
+/// Returns the bits of a mask from `cell` on, up to the end of its word.
+#[inline(always)]
+fn bits(mask: &[u32], cell: u32) -> u32 {
+    mask.get((cell / WORD) as usize).map_or(0, |word| word >> (cell % WORD))
+}
+
+/// Returns a depth that a pyramid can hold.
+#[inline(always)]
+pub(super) fn pyramid_depth(depth: u32) -> u32 {
+    depth.min((1 << DEPTH_BITS) - 1)
+}
+
+impl<V: OfCell> Holes<'_, V> {
+    /// Returns the place of a cell in the planes.
+    #[inline(always)]
+    pub(super) const fn cell(&self, x: u32, y: u32) -> u32 {
+        y * self.picture.width + x
     }
 
+    /// Returns of a cell and the [`WORD`] - 1 after it whether they are known, a bit for each.
     #[inline(always)]
-    fn known(&self, x: u32, y: u32) -> Known<Tint> {
-        let cell = y * self.width + x;
-        Known {
-            validity: (self.bits(cell) & 1) * FULL,
-            depth: self.depths.get(cell as usize).copied().unwrap_or_default(),
-            value: self.tint_of.tint(self.colours.get(cell as usize).copied().unwrap_or_default()),
+    pub(super) fn known_from(&self, cell: u32) -> u32 {
+        let next = self.picture.known.get((cell / WORD + 1) as usize).map_or(0, |&word| u64::from(word));
+        (u64::from(bits(self.picture.known, cell)) | next << (WORD - cell % WORD)) as u32
+    }
+
+    /// Returns what is known of a cell with this colour and this depth.
+    #[inline(always)]
+    fn known_of(&self, cell: u32, colour: u32, depth: u32) -> Known<V> {
+        let validity = (bits(self.picture.known, cell) & 1) * FULL;
+        Known { validity, depth: pyramid_depth(depth), value: V::looked_up(&self.table, colour, cell) }
+    }
+
+    /// Calls `hole` with column and row of each hole that is to be filled, row by row.
+    #[inline(always)]
+    pub(super) fn each_hole(&mut self, mut hole: impl FnMut(&mut Self, u32, u32)) {
+        let [width, height] = self.size();
+        for y in 0..height {
+            let row = y * width;
+            let mut x = 0;
+            while x < width {
+                let run = (width - x).min(WORD - (row + x) % WORD);
+                let wanted = if self.mask.is_empty() { u32::MAX } else { bits(self.mask, row + x) };
+                let mut holes = wanted & !bits(self.picture.known, row + x) & (u32::MAX >> (WORD - run));
+                while holes != 0 {
+                    hole(self, x + holes.trailing_zeros(), y);
+                    holes &= holes - 1;
+                }
+                x += run;
+            }
         }
     }
 
+    /// Gives a hole a colour.
     #[inline(always)]
-    fn block(&self, x: u32, y: u32) -> [Known<Tint>; 4] {
-        let (left, top) = (x << 1, y << 1);
-        if left + 1 >= self.width || top + 1 >= self.height {
+    pub(super) fn set(&mut self, x: u32, y: u32, value: V) {
+        let cell = self.cell(x, y);
+        if let Some(colour) = self.picture.colours.get_mut(cell as usize) {
+            *colour = value.colour(&self.picture.format);
+        }
+    }
+}
+
+impl<V: OfCell> Holed for Holes<'_, V> {
+    type Value = V;
+
+    fn size(&self) -> [u32; 2] {
+        [self.picture.width, self.picture.height]
+    }
+
+    #[inline(always)]
+    fn known(&self, x: u32, y: u32) -> Known<V> {
+        let cell = self.cell(x, y);
+        let word = |plane: &[u32]| plane.get(cell as usize).copied().unwrap_or_default();
+        self.known_of(cell, word(self.picture.colours), word(self.picture.depths))
+    }
+
+    #[inline(always)]
+    fn block(&self, x: u32, y: u32) -> [Known<V>; 4] {
+        let (left, top, [width, height]) = (x << 1, y << 1, self.size());
+        if left + 1 >= width || top + 1 >= height {
             return self.cell_by_cell(x, y);
         }
         let two = |cell: u32| {
             let pair =
                 |cells: &[u32]| cells.get(cell as usize..).and_then(<[u32]>::first_chunk).copied().unwrap_or([0; 2]);
-            let (colours, depths) = (pair(self.colours), pair(self.depths));
-            let bits = [self.bits(cell), self.bits(cell + 1)];
-            [0, 1].map(|i: usize| Known {
-                validity: (bits[i] & 1) * FULL,
-                depth: depths[i],
-                value: self.tint_of.tint(colours[i]),
-            })
+            let (colours, depths) = (pair(self.picture.colours), pair(self.picture.depths));
+            [self.known_of(cell, colours[0], depths[0]), self.known_of(cell + 1, colours[1], depths[1])]
         };
-        let cell = top * self.width + left;
-        let ([a, b], [c, d]) = (two(cell), two(cell + self.width));
+        let cell = self.cell(left, top);
+        let ([a, b], [c, d]) = (two(cell), two(cell + width));
         [a, b, c, d]
     }
 
     #[inline(always)]
-    fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, Tint); RUN]> {
+    fn even_run(&self, x: u32, y: u32, threshold: u32) -> Option<[(u32, V); RUN]> {
         const CELLS: usize = 2 * RUN;
-        let (left, top) = (x << 1, y << 1);
-        if left + CELLS as u32 > self.width || top + 1 >= self.height {
+        let (left, top, [width, height]) = (x << 1, y << 1, self.size());
+        if left + CELLS as u32 > width || top + 1 >= height {
             return None;
         }
-        let cell = top * self.width + left;
-        let known = |cell: u32| {
-            let next = self.known.get((cell / WORD + 1) as usize).map_or(0, |&word| u64::from(word));
-            (u64::from(self.bits(cell)) | next << (WORD - cell % WORD)) as u32 & ((1 << CELLS) - 1) == (1 << CELLS) - 1
-        };
-        if !known(cell) || !known(cell + self.width) {
+        let &Picture { ref colours, depths, .. } = &self.picture;
+        let (upper, lower) = (self.cell(left, top), self.cell(left, top + 1));
+        let is_known = |cell: u32| self.known_from(cell) & ((1 << CELLS) - 1) == (1 << CELLS) - 1;
+        if !is_known(upper) || !is_known(lower) {
             return None;
         }
         let cells =
             |plane: &'_ [u32], cell: u32| plane.get(cell as usize..).and_then(<[u32]>::first_chunk::<CELLS>).copied();
-        let mut run = [(0, Tint::default()); RUN];
-        if !self.depths.is_empty() {
-            let (upper, lower) = (cells(self.depths, cell)?, cells(self.depths, cell + self.width)?);
+        let mut run = [(0, V::default()); RUN];
+        if !depths.is_empty() {
+            let (upper, lower) = (cells(depths, upper)?, cells(depths, lower)?);
             let mut uneven = 0;
             for (i, (depth, _)) in run.iter_mut().enumerate() {
-                let [a, b, c, d] =
-                    [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]].map(|depth| depth as i32);
+                let [a, b, c, d] = each([upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]], |depth| {
+                    pyramid_depth(depth) as i32
+                });
                 let (farthest, nearest) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
                 uneven |= u32::from((farthest - nearest) as u32 > threshold);
                 *depth = farthest as u32;
@@ -152,36 +225,29 @@ impl Holed for Picture<'_> {
                 return None;
             }
         }
-        let (upper, lower) = (cells(self.colours, cell)?, cells(self.colours, cell + self.width)?);
+        let values = |cell: u32| {
+            let mut values = [V::default(); CELLS];
+            for ((value, colour), cell) in values.iter_mut().zip(cells(colours, cell)?).zip(cell..) {
+                *value = V::looked_up(&self.table, colour, cell);
+            }
+            Some(values)
+        };
+        let (upper, lower) = (values(upper)?, values(lower)?);
         for (i, (_, value)) in run.iter_mut().enumerate() {
-            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]]
-                .map(|colour| self.tint_of.tint(colour));
-            *value = Tint::plain_mean(&four, tie(x + i as u32, y, 1));
+            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]];
+            *value = V::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)
     }
 
-    fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<Tint>) -> u32 {
+    fn fill_holes(&mut self, mut value: impl FnMut(&Self, u32, u32) -> Option<V>) -> u32 {
         let mut filled = 0;
-        for y in 0..self.height {
-            let row = y * self.width;
-            let mut x = 0;
-            while x < self.width {
-                let run = (self.width - x).min(WORD - (row + x) % WORD);
-                let mut holes = !self.bits(row + x) & (u32::MAX >> (WORD - run));
-                while holes != 0 {
-                    let hole = x + holes.trailing_zeros();
-                    holes &= holes - 1;
-                    if let Some(tint) = value(self, hole, y)
-                        && let Some(colour) = self.colours.get_mut((row + hole) as usize)
-                    {
-                        *colour = tint.colour(&self.format);
-                        filled += 1;
-                    }
-                }
-                x += run;
+        self.each_hole(|holes, x, y| {
+            if let Some(value) = value(holes, x, y) {
+                holes.set(x, y, value);
+                filled += 1;
             }
-        }
+        });
         filled
     }
 }

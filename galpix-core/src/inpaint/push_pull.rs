@@ -181,14 +181,16 @@ impl<'s> PushPull<'s> {
     }
 
     /// Fills the holes of a picture: how many were filled. A picture has no motion, so it is filled alike with and
-    /// without. Of `inpainting` gamma and threshold count. Of a picture of another size, only what lies within both is
-    /// filled.
+    /// without. Of `inpainting` gamma, threshold and mask count. Of a picture of another size, only what lies within
+    /// both is filled.
     pub fn fill_picture(&mut self, picture: &mut Picture<'_>, inpainting: &Inpainting<'_>) -> u32 {
         #[cfg(feature = "check")]
-        let expected = picture.on_copy(|copy| super::reference::push_pull(copy, &self.levels, inpainting));
-        let filled = self.fill(picture, inpainting);
+        let expected = picture.on_copy(|copy| {
+            super::reference::push_pull(&mut copy.holes::<Tint>(inpainting.mask, &[]), &self.levels, inpainting)
+        });
+        let filled = self.fill(&mut picture.holes::<Tint>(inpainting.mask, &[]), inpainting);
         #[cfg(feature = "check")]
-        assert!((picture.colours(), filled) == (&*expected.0, expected.1), "push-pull of a picture: {inpainting:?}");
+        assert!((&*picture.colours, filled) == (&*expected.0, expected.1), "push-pull of a picture: {inpainting:?}");
         filled
     }
 

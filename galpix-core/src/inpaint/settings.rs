@@ -15,7 +15,7 @@ pub struct Inpainting<'m> {
     pub threshold: u32,
     /// Whether holes get the depth of the background from stretched quads first.
     pub quads: bool,
-    /// Which holes of a map are filled: bit `c mod 32` of word `c / 32` for cell `c`, and none beyond the last word.
+    /// Which holes are filled: bit `c mod 32` of word `c / 32` for cell `c`, and none beyond the last word.
     /// Empty for all of them.
     pub mask: &'m [u32],
 }

@@ -158,6 +158,15 @@ impl<'r> Grid<'r> {
         if (x as u32) < self.width { Some(self.row(y)? + x as u32) } else { None }
     }
 
+    /// Returns the row of a cell, and the first cell of that row. Of a cell beyond the last one those of the last row.
+    ///
+    /// *Cost:* a search in the table, in as many steps as the number of rows has bits; nothing divides.
+    #[inline]
+    pub(crate) fn row_of(&self, cell: u32) -> (u32, u32) {
+        let row = self.starts.partition_point(|&start| start <= cell).saturating_sub(1);
+        (row as u32, self.starts.get(row).copied().unwrap_or_default())
+    }
+
     /// Returns the first cells of all rows, from the top.
     pub(crate) fn starts(&self) -> &'r [u32] {
         self.starts

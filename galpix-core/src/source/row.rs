@@ -8,6 +8,7 @@ use crate::fast;
 use crate::format::Format;
 use crate::format::colour::WEIGHTS;
 use crate::frame::fill::FillMode;
+use crate::layers::displacement_word;
 use crate::map::galpixel::Class;
 use crate::map::grid::Grid;
 
@@ -45,6 +46,18 @@ impl<F: Format> Sources<'_, '_, F> {
     /// cells are inpainted.
     pub fn known(&self, y: u32, known: &mut [u32], depths: &mut [u32]) {
         F::sources_known(self, y, known, depths);
+    }
+
+    /// Writes for each cell of row `y` of the map how far from where it is stored the sample that the cell shows is
+    /// seen: column and row of the cell less those of the sample's own cell, as a
+    /// [`displacement_word`](crate::layers::displacement_word); 0 for a cell that shows no sample. For
+    /// [`Metamer::fill_picture`](crate::inpaint::Metamer::fill_picture), so that a texture moves with the picture.
+    /// Nothing is written if there is no such row, or if `moved` is too short; a longer one keeps what is beyond.
+    ///
+    /// *Cost:* a load and an addition for each cell, and a search in the table of row starts wherever a neighbour shows
+    /// a sample of another row.
+    pub fn moved(&self, y: u32, moved: &mut [u32]) {
+        F::sources_moved(self, y, moved);
     }
 
     /// Returns the colour words of row `y` of the map from the gathered and filled ones of the row above, the row
@@ -209,6 +222,29 @@ pub(crate) fn finish_cell<F: Format>(sources: &Sources<'_, '_, F>, finish: &Fini
         }
     }
     colour
+}
+
+/// Says how far what a row shows has moved, see [`Sources::moved`].
+pub(crate) fn moved<F: Format>(sources: &Sources<'_, '_, F>, y: u32, moved: &mut [u32]) {
+    let Some((map, start)) = sources.base().and_then(|map| Some((map, map.grid().row(y as i32)?))) else { return };
+    let grid = map.grid();
+    let Some(moved) = moved.get_mut(..grid.width() as usize) else { return };
+    // Neighbours mostly show samples of one row.
+    let mut stored = (y, start);
+    for (to, x) in moved.iter_mut().zip(0..) {
+        let entry = sources.visibility.at(start + x);
+        *to = match layer_of(sources.layers, entry.sample()).filter(|_| entry.is_some()) {
+            Some((_, first, _)) => {
+                let sample = entry.sample() - first;
+                if sample.wrapping_sub(stored.1) >= grid.width() {
+                    stored = grid.row_of(sample);
+                }
+                let (row, start) = stored;
+                displacement_word([x.wrapping_sub(sample - start) as i32, y.wrapping_sub(row) as i32])
+            }
+            None => 0,
+        };
+    }
 }
 
 /// Says what is known of a row, see [`Sources::known`].

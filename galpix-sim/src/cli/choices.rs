@@ -277,7 +277,7 @@ impl Extrapolation {
 /// Returns the error of fills that stationary sources do not have, as they were given.
 pub fn not_of_sources(option: &str, fills: &str) -> CliError {
     CliError::unusable(format!(
-        "`{option} {fills}` is for `--scheme map`: stationary sources take none, hold, extend or push-pull"
+        "`{option} {fills}` is for `--scheme map`: stationary sources take none, hold, extend, push-pull or metamer"
     ))
 }
 

@@ -126,8 +126,7 @@ impl Scheme {
     pub const fn takes(self, fill: Fill) -> bool {
         use FillMode::{Extend, Hold, None};
         match (self, fill) {
-            (Self::Map, _) | (Self::Source, Fill::Mode(None | Hold | Extend)) => true,
-            (Self::Source, Fill::Inpaint(inpaint)) => matches!(inpaint.kind, Kind::PushPull),
+            (Self::Map, _) | (Self::Source, Fill::Mode(None | Hold | Extend) | Fill::Inpaint(_)) => true,
             (Self::Source, Fill::Mode(_)) => false,
         }
     }

@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use galpix_core::inpaint::{Inpainting, Motion, Picture, PushPull};
+use galpix_core::inpaint::Picture;
 use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
 use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Grid, SetupError, Tally};
 
-use super::fill::in_fovea;
+use super::fill::{Inpaint, Inpainter};
 use super::frame::{Frame, Shown, display_cells, places_of};
 use super::load::{grid, margin};
 use super::{Delivered, Engine, EngineError, HiddenLayer, NO_ORIGIN, Pins, Ran, ScanOut, Visit, load};
@@ -18,7 +18,7 @@ pub(super) struct Memory {
     layers: Vec<LayerMemory>,
     keys: Vec<u16>,
     words: Vec<u32>,
-    line: Vec<u32>,
+    line: Vec<u16>,
 }
 
 /// The memory of a layer.
@@ -65,22 +65,24 @@ struct Canvas {
     /// Colour words, gathered and filled, and the finished ones.
     gathered: Vec<u32>,
     finished: Vec<u32>,
-    /// For push-pull, whose memory is its own; empty without.
+    /// For inpainting: what is known, its depths, and how far it has moved; empty without.
     known: Vec<u32>,
     depths: Vec<u32>,
-    pyramid: Vec<u32>,
+    moved: Vec<u32>,
+    inpainter: Option<Inpainter>,
 }
 
 impl Canvas {
-    fn new(grid: &Grid<'_>, inpaints: bool) -> Self {
+    fn new(grid: &Grid<'_>, inpaint: Option<Inpaint>) -> Self {
         let cells = grid.cells() as usize;
-        let of = |words: usize| vec![0; if inpaints { words } else { 0 }];
+        let of = |words: usize| vec![0; if inpaint.is_some() { words } else { 0 }];
         Self {
             gathered: vec![0; cells],
             finished: vec![0; cells],
             known: of(cells.div_ceil(u32::BITS as usize)),
             depths: of(cells),
-            pyramid: of(PushPull::words(grid.width(), grid.height(), Motion::Kept)),
+            moved: of(cells),
+            inpainter: inpaint.map(|inpaint| Inpainter::new(grid, inpaint)),
         }
     }
 }
@@ -122,7 +124,7 @@ impl Engine {
         };
         let mut pins = Pins::new(update, &grid, *self.format.record().colour_format());
         let overlay = pins.overlay()?;
-        let mut canvas = Canvas::new(&grid, self.inpaint.is_some());
+        let mut canvas = Canvas::new(&grid, self.inpaint);
         let mut used = vec![false; cells * (1 + hidden.len())];
         let mut origins = vec![NO_ORIGIN; cells];
         for number in 0..=frames {
@@ -181,7 +183,7 @@ impl Engine {
 
     /// Makes the picture of a frame.
     fn paint(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>, canvas: &mut Canvas) {
-        let Canvas { gathered, finished, known, depths, pyramid } = canvas;
+        let Canvas { gathered, finished, known, depths, moved, inpainter } = canvas;
         let width = grid.width() as usize;
         let gather = Gather {
             fill_mode: self.settings.fill_mode,
@@ -191,31 +193,18 @@ impl Engine {
         for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
             sources.gather(y, gather, row);
         }
-        if let Some(inpaint) = self.inpaint {
-            let inside = |cell: &usize| in_fovea_of(grid, inpaint.fovea, *cell);
-            let extended: Vec<(usize, u32)> =
-                (0..gathered.len()).filter(inside).map(|cell| (cell, gathered[cell])).collect();
+        if let Some(inpainter) = inpainter {
             known.fill(0);
-            for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
+            for ((y, depths), moved) in (0..).zip(depths.chunks_mut(width)).zip(moved.chunks_mut(width)) {
                 sources.known(y, known, depths);
+                sources.moved(y, moved);
             }
-            let inpainting = if inpaint.depth_aware {
-                let threshold = sources.depth_threshold(self.settings.edge_threshold);
-                Inpainting::for_edge_threshold(threshold, Sources::<Dynamic>::DEPTH_BITS, inpaint.gamma)
-            } else {
-                Inpainting { gamma: inpaint.gamma, ..Inpainting::classic() }
-            };
+            let threshold = [sources.depth_threshold(self.settings.edge_threshold), Sources::<Dynamic>::DEPTH_BITS];
             let colour = *self.format.record().colour_format();
-            let (width, height) = (grid.width(), grid.height());
-            if let Ok(mut push_pull) = PushPull::new(width, height, Motion::Kept, pyramid)
-                && let Ok(picture) = Picture::new(width, height, colour, gathered, known)
+            if let Ok(picture) = Picture::new(grid.width(), grid.height(), colour, gathered, known)
                 && let Ok(mut picture) = picture.with_depths(depths)
             {
-                push_pull.fill_picture(&mut picture, &inpainting);
-            }
-            // Inside of the fovea the fill mode's colours stay.
-            for &(cell, colour) in &extended {
-                gathered[cell] = colour;
+                inpainter.paint_picture(&mut picture, threshold, moved);
             }
         }
         if gather.sub_cell {
@@ -228,12 +217,4 @@ impl Engine {
             finished.copy_from_slice(gathered);
         }
     }
-}
-
-/// Returns whether a cell of a map lies in a disc of this radius in the middle of the display.
-fn in_fovea_of(grid: &Grid<'_>, fovea: Option<u32>, cell: usize) -> bool {
-    let (margin, width) = (grid.margin(), grid.width() as usize);
-    let [x, y] = [(cell % width).wrapping_sub(margin.left as usize), (cell / width).wrapping_sub(margin.top as usize)];
-    let (columns, rows) = (grid.display_width() as usize, grid.display_height() as usize);
-    fovea.is_some() && x < columns && y < rows && in_fovea(fovea, y * columns + x, columns, rows)
 }

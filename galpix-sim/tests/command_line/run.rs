@@ -152,15 +152,35 @@ fn stationary_sources_come_nearer_to_the_truth_than_the_map() {
 #[test]
 fn what_stationary_sources_do_not_have_is_refused_and_what_they_have_is_named() {
     let folder = folder();
-    for fill in ["debris", "bullet", "galdebris", "metamer"] {
-        refused(folder.path(), &["run", "ball", "--scheme", "source", "--fill", fill], &[fill, "push-pull", "map"]);
+    for fill in ["debris", "bullet", "galdebris"] {
+        refused(folder.path(), &["run", "ball", "--scheme", "source", "--fill", fill], &[fill, "metamer", "map"]);
     }
     refused(folder.path(), &["run", "ball", "--scheme", "source", "--reach", "2"], &["--reach", "map"]);
     refused(folder.path(), &["run", "ball", "--scheme", "paint"], &["map", "source"]);
-    for fill in ["none", "hold", "extend", "push-pull"] {
+    for fill in ["none", "hold", "extend", "push-pull", "metamer"] {
         let report =
             json(folder.path(), &["run", "hud", "--scheme", "source", "--frames", "3", "--fill", fill, "--json"]);
         assert_eq!(report["fill"], fill);
+    }
+}
+
+/// Each fill shows something else. In a fovea there is what extend shows, beyond it what is shown without one.
+#[test]
+fn stationary_sources_are_inpainted_outside_of_the_fovea() {
+    let folder = folder();
+    let frame = |name: &str, more: &[&str]| {
+        let arguments = ["run", "ball", "--scheme", "source", "--frames", "3", "--out", name, "--fill"];
+        json(folder.path(), &[&arguments[..], more, &["--json"]].concat());
+        std::fs::read(folder.path().join(name).join("0003.png")).expect("a frame")
+    };
+    let extended = frame("extend", &["extend"]);
+    let mut shown = std::collections::HashSet::from([extended.clone()]);
+    for fill in ["push-pull", "metamer"] {
+        assert_eq!(frame("all", &[fill, "--fovea", "1000"]), extended, "{fill}");
+        assert!(
+            shown.insert(frame("none", &[fill])) && shown.insert(frame("some", &[fill, "--fovea", "60"])),
+            "{fill}"
+        );
     }
 }
 

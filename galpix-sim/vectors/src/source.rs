@@ -8,10 +8,13 @@ use serde::Serialize;
 
 use crate::case::{Case, Content, Counts, GridSize, Setting};
 use crate::choice::grid;
-use crate::maps::{Picture, Random};
+use crate::maps::{Picture, Random, size};
 use crate::run::{GridMemory, Model, RunError, planes};
 use crate::scenes::{Ground, Scene};
 use crate::sub_cell;
+use inpainted::{Inpainted, Paint};
+
+mod inpainted;
 
 /// Layers of samples, some frames of them, and what the last one shows.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -37,7 +40,10 @@ pub struct StationarySources {
     pub keys: Vec<u32>,
     /// Number and residual of the sample, 4294967295 without an entry.
     pub entries: Vec<u32>,
-    /// A colour word for each cell of the map, before silhouettes.
+    /// How cells without an entry are inpainted; left out where they are not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inpaint: Option<Inpainted>,
+    /// A colour word for each cell of the map, inpainted, before silhouettes.
     pub gathered: Vec<u32>,
     /// The colour words after silhouettes; empty without sub-cell scan-out.
     pub shown: Vec<u32>,
@@ -78,6 +84,13 @@ impl StationarySources {
         for (name, words) in [("keys", &self.keys), ("entries", &self.entries), ("gathered", &self.gathered)] {
             arrays.push((name.to_owned(), words.clone()));
         }
+        if let Some(Inpainted { mask, known, depths, moved, .. }) = &self.inpaint {
+            for (name, words) in [("mask", mask), ("known", known), ("depths", depths), ("moved", moved)] {
+                if !words.is_empty() {
+                    arrays.push((name.to_owned(), words.clone()));
+                }
+            }
+        }
         if self.sub_cell {
             arrays.push(("shown".to_owned(), self.shown.clone()));
         }
@@ -92,6 +105,7 @@ struct Plan {
     frame: u32,
     frames: u32,
     sub_cell: bool,
+    paint: Option<Paint>,
 }
 
 /// Memory of a layer.
@@ -145,7 +159,12 @@ impl Model {
             0 => sources.show(&plan.settings),
             frames => (0..frames).fold(Tally::default(), |_, _| sources.step(&plan.settings)),
         };
-        let [gathered, shown] = plan.colours(&sources, &grid);
+        let mut gathered = plan.gathered(&sources, &grid);
+        let inpaint = match &plan.paint {
+            Some(paint) => Some(self.inpainted(plan, paint, (&sources, &mut gathered), random)?),
+            None => None,
+        };
+        let shown = plan.shown(&sources, &gathered);
         let entries = || (0..grid.cells()).map(|cell| sources.entry(cell).unwrap_or((u16::MAX, u32::MAX)));
         let layers = sources.layers().iter().zip(at_first).map(|(source, [galpixels, displacements])| SourceLayer {
             galpixels,
@@ -167,6 +186,7 @@ impl Model {
             layers: layers.collect(),
             keys: entries().map(|(key, _)| key.into()).collect(),
             entries: entries().map(|(_, word)| word).collect(),
+            inpaint,
             gathered,
             shown,
             counts: counts.into(),
@@ -175,8 +195,8 @@ impl Model {
 }
 
 impl Plan {
-    /// Returns the colours of all cells before and after silhouettes.
-    fn colours(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>) -> [Vec<u32>; 2] {
+    /// Returns the colours of all cells before silhouettes.
+    fn gathered(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>) -> Vec<u32> {
         let Settings { fill_mode, edge_threshold, .. } = self.settings;
         let gather = Gather { fill_mode, sub_cell: self.sub_cell, edge_threshold };
         let width = grid.width() as usize;
@@ -184,13 +204,19 @@ impl Plan {
         for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
             sources.gather(y, gather, row);
         }
+        gathered
+    }
+
+    /// Returns the colours after silhouettes; none without sub-cell scan-out.
+    fn shown(&self, sources: &Sources<'_, '_, Dynamic>, gathered: &[u32]) -> Vec<u32> {
+        let width = size(&self.map_size).0 as usize;
         let mut shown = vec![0; if self.sub_cell { gathered.len() } else { 0 }];
         let row = |y: Option<usize>| y.and_then(|y| gathered.chunks(width).nth(y)).unwrap_or_default();
         for (y, colours) in shown.chunks_mut(width).enumerate() {
             let around = [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))];
-            sources.finish(y as u32, edge_threshold, around, colours);
+            sources.finish(y as u32, self.settings.edge_threshold, around, colours);
         }
-        [gathered, shown]
+        shown
     }
 }
 
@@ -299,6 +325,7 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
     for (turn, ((scene, layers), model)) in SPECIAL.into_iter().zip(special.cycle()).enumerate() {
         cases.push(case(seed, model, (scene, layers), 1000 + turn)?);
     }
+    cases.extend(inpainted::cases(seed, &models)?);
     Ok(cases)
 }
 
@@ -330,6 +357,7 @@ fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) 
             _ => [3, 4, 2, 0, 3][turn % 5],
         },
         sub_cell: turn % 7 != 3,
+        paint: None,
     };
     // Behind the base: a background, the same once more at the same depths, or anything.
     let behind = [Scene::Background, scene, Scene::CloseBackground, Scene::Drawn(Picture::Random)];

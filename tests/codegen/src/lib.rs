@@ -171,7 +171,7 @@ macro_rules! passes {
                 sources.step(settings)
             }
 
-            /// Rows of them: gathered, what is known of them, and finished.
+            /// Rows of them: gathered, how far they have moved, what is known of them, and finished.
             #[unsafe(export_name = concat!("proof_source_rows_", stringify!($name)))]
             pub fn source_rows(
                 sources: &Sources<'_, '_, Format>,
@@ -182,6 +182,7 @@ macro_rules! passes {
             ) -> Option<(usize, u32)> {
                 let [above, row, below] = lines;
                 sources.gather(y, gather, row);
+                sources.moved(y, above);
                 sources.known(y, above, below);
                 sources.finish(y, gather.edge_threshold, [above, row, below], finished);
                 sources.shown(y)

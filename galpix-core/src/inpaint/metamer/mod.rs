@@ -20,6 +20,7 @@ mod active;
 mod block;
 mod map;
 pub mod noise;
+mod picture;
 #[cfg(any(test, feature = "check"))]
 pub mod reference;
 mod responses;
@@ -33,6 +34,7 @@ mod tones;
 mod ycbcr;
 
 use super::levels::{Level, Levels};
+use super::picture::Picture;
 use super::pyramid::Pyramid;
 use super::settings::Inpainting;
 use crate::error::SetupError;
@@ -86,7 +88,7 @@ impl Default for MetamerWorkspace {
     }
 }
 
-/// Metamers for maps of one size or smaller ones, over caller-provided buffers.
+/// Metamers for maps or pictures of one size or smaller ones, over caller-provided buffers.
 #[derive(Debug)]
 pub struct Metamer<'s> {
     recipe: Recipe,
@@ -109,8 +111,8 @@ impl<'s> Metamer<'s> {
     /// The most levels that have bands.
     pub const MOST_LEVELS: u32 = 8;
 
-    /// Returns the words of memory for maps of `width` x `height` cells, each 1 to 32768, and a recipe of `levels`
-    /// levels.
+    /// Returns the words of memory for maps or pictures of `width` x `height` cells, each 1 to 32768, and a recipe of
+    /// `levels` levels.
     #[must_use]
     pub const fn words(width: u32, height: u32, levels: u32) -> usize {
         let (of_picture, last) = (Levels::new(width, height), limited(levels));
@@ -129,8 +131,8 @@ impl<'s> Metamer<'s> {
             .saturating_add(size_of::<MetamerWorkspace>())
     }
 
-    /// Lays metamers for maps of `width` x `height` cells over `memory`. What is in the memory and in the workspace
-    /// does not matter.
+    /// Lays metamers for maps or pictures of `width` x `height` cells over `memory`. What is in the memory and in the
+    /// workspace does not matter.
     ///
     /// *Errors:* a side of 0 or over 32768, memory shorter than [`Self::words`].
     pub fn new(
@@ -162,6 +164,33 @@ impl<'s> Metamer<'s> {
             need,
             have,
         })
+    }
+
+    /// Fills the holes of a picture: how many were filled. Of `inpainting` gamma, threshold and mask count.
+    ///
+    /// `moved` has for each cell, row by row, the word of how far what it shows has moved since the update, in whole
+    /// cells, see [`displacement_word`](crate::layers::displacement_word); empty, nothing has moved. A hole takes the
+    /// noise of its place less the displacement of the known cell that has the largest part in its smooth colour, so
+    /// that the texture moves with that surface. What `moved` has for holes does not matter.
+    ///
+    /// *Errors:* memory that is too short for the picture, displacements of some cells only; then nothing is filled.
+    ///
+    /// *Cost:* that of metamers in a galpixmap, see `docs/notes/inpainting.md`.
+    pub fn fill_picture(
+        &mut self,
+        picture: &mut Picture<'_>,
+        inpainting: &Inpainting<'_>,
+        moved: &[u32],
+    ) -> Result<u32, SetupError> {
+        picture.check_moved(moved)?;
+        #[cfg(feature = "check")]
+        let expected = picture.on_copy(|copy| {
+            reference::metamers(&mut copy.holes::<Tone>(inpainting.mask, moved), inpainting, &self.recipe, 0)
+        });
+        let filled = self.fill(&mut picture.holes::<Tone>(inpainting.mask, moved), inpainting, 0)?;
+        #[cfg(feature = "check")]
+        assert!((&*picture.colours, filled) == (&*expected.0, expected.1), "metamers in a picture: {inpainting:?}");
+        Ok(filled)
     }
 
     /// Fills the holes of a scene, `age` frames after it was updated: how many were filled.

@@ -1,8 +1,11 @@
 //! What metamers take means of: luma, chroma, and the motion that goes with them.
 
 use super::steerable::LARGEST;
+use super::ycbcr;
+use crate::format::colour::Colour;
 use crate::inpaint::kernel::Value;
 use crate::inpaint::mean::signed;
+use crate::inpaint::paint::OfCell;
 use crate::inpaint::pyramid::Stored;
 
 /// Luma and chroma, and the cell whose motion goes with them, see [`Moving`](crate::inpaint::paint::Moving).
@@ -27,6 +30,48 @@ impl Tone {
     }
 }
 
+/// How stored colours become tones: where each channel is, and by how much it is moved down to be repeated until it has
+/// eight bits. Loops by it become vector code, whatever the format.
+#[derive(Clone, Copy, Debug)]
+pub struct ToneOf {
+    down: [u32; 3],
+    mask: [u32; 3],
+    up: [u32; 3],
+    again: [[u32; 3]; 3],
+}
+
+impl ToneOf {
+    /// Looks a format up. The one channel of a gray stands for all three.
+    #[inline(always)]
+    fn new(format: &Colour) -> Self {
+        let mut tone = Self { down: [0; 3], mask: [0; 3], up: [0; 3], again: [[0; 3]; 3] };
+        for (at, channel) in core::iter::repeat_with(|| format.channels()).flatten().take(3).enumerate() {
+            let bits = channel.bits;
+            tone.down[at] = channel.shift;
+            tone.mask[at] = (1 << bits) - 1;
+            tone.up[at] = 8 - bits;
+            // Of eight bits or fewer nothing is left beyond.
+            tone.again[at] = [bits, 2 * bits, if bits < 8 { 4 * bits } else { 31 }];
+        }
+        tone
+    }
+
+    /// Returns luma and chroma of a stored colour.
+    #[inline(always)]
+    #[must_use]
+    pub fn channels(&self, colour: u32) -> [i16; 3] {
+        let channel = |at: usize| {
+            let [first, second, third] = self.again[at];
+            let wide = (colour >> self.down[at] & self.mask[at]) << self.up[at];
+            let wide = wide | wide >> first;
+            let wide = wide | wide >> second;
+            (wide | wide >> third) as u8
+        };
+        // The `map` of arrays would be a call.
+        ycbcr::of_rgb([channel(0), channel(1), channel(2)])
+    }
+}
+
 /// Puts two halves into a word.
 #[inline(always)]
 pub const fn packed(low: i16, high: i16) -> u32 {
@@ -37,6 +82,49 @@ pub const fn packed(low: i16, high: i16) -> u32 {
 #[inline(always)]
 pub const fn halves(word: u32) -> [i16; 2] {
     [word as i16, (word >> 16) as i16]
+}
+
+/// The colour, and position in the cell, motion and tag of a galpixel of the same surface.
+impl OfCell for Tone {
+    type Table = ToneOf;
+
+    #[inline(always)]
+    fn table(format: &Colour) -> ToneOf {
+        ToneOf::new(format)
+    }
+
+    #[inline(always)]
+    fn of(format: &Colour, colour: u32, cell: u32) -> Self {
+        Self { channels: ycbcr::of_rgb(format.to_rgb888(colour)), source: cell }
+    }
+
+    #[inline(always)]
+    fn looked_up(table: &ToneOf, colour: u32, cell: u32) -> Self {
+        Self { channels: table.channels(colour), source: cell }
+    }
+
+    #[inline(always)]
+    fn colour(self, format: &Colour) -> u32 {
+        stored(format, ycbcr::to_rgb(self.channels.map(i32::from)))
+    }
+
+    #[inline(always)]
+    fn source(self) -> Option<u32> {
+        Some(self.source)
+    }
+}
+
+/// Returns the stored colour nearest to one of 8 bits per channel, or one that is farther by a single code value.
+#[inline(always)]
+fn stored(format: &Colour, rgb: [u8; 3]) -> u32 {
+    let mut rounded = [0; 3];
+    for (i, (to, &level)) in rounded.iter_mut().zip(&rgb).enumerate() {
+        // The one channel of a gray stands for all three.
+        let bits = format.channel_bits(i);
+        // A level of b bits has its high bits once more below: what they add is taken away before half a step is added.
+        *to = level - (level as u32 >> bits) as u8 + ((1 << (8 - bits)) >> 1) as u8;
+    }
+    format.from_rgb888(rounded)
 }
 
 impl Stored for Tone {
@@ -120,6 +208,41 @@ mod tests {
                 assert_eq!(Tone::plain_mean(&values, tie), Tone::mean(&values, &[16; 4], tie));
                 assert_eq!(Tone::linear(&values, tie), Tone::mean(&values, &[9, 3, 3, 1], tie));
             }
+        }
+    }
+
+    fn comes_back(format: Colour, colours: impl Iterator<Item = u32>) {
+        for colour in colours {
+            assert_eq!(stored(&format, format.to_rgb888(colour)), colour);
+        }
+    }
+
+    #[test]
+    fn every_stored_colour_comes_back() {
+        comes_back(Colour::RGB888, (0..1 << 24).step_by(7));
+        comes_back(Colour::RGB565, 0..1 << 16);
+        comes_back(Colour::GRAY8, 0..256);
+        comes_back(Colour::GRAY4, 0..16);
+    }
+
+    #[test]
+    fn tones_are_those_of_eight_bits() {
+        for bits in 1..=8 {
+            let gray = Colour::must(Colour::gray(bits));
+            for format in [gray, Colour::must(Colour::rgb(bits, 9 - bits, 1 + bits / 2))] {
+                for colour in 0..1 << format.bits().min(16) {
+                    assert_eq!(ToneOf::new(&format).channels(colour), ycbcr::of_rgb(format.to_rgb888(colour)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_near_level_is_stored() {
+        for level in 0..=255u8 {
+            let [red, green, blue] = Colour::RGB565.to_rgb888(stored(&Colour::RGB565, [level; 3]));
+            // Steps of five bits are 8 or 9 wide, those of six 4 or 5.
+            assert!(level.abs_diff(red) <= 5 && level.abs_diff(green) <= 3 && red == blue, "{level}: {red} {green}");
         }
     }
 }

@@ -10,9 +10,9 @@ use crate::format::budget::{Bits, Demand};
 use crate::format::layout::Layout;
 use crate::format::{Dynamic, Format, Profile, Static};
 use crate::inpaint::levels::Levels;
-use crate::inpaint::map::{OfGalpixel, Uncovered, metamers, push_pull};
+use crate::inpaint::map::{Uncovered, metamers, push_pull};
 use crate::inpaint::metamer::tone::Tone;
-use crate::inpaint::paint::{Moving, Tint};
+use crate::inpaint::paint::{Moving, OfCell, Tint};
 use crate::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, PushPull, Recipe, Scale};
 use crate::inpaint::{metamer, reference};
 use crate::map::Galpixmap;
@@ -91,14 +91,15 @@ fn after<F: Format, R>(
     (words, result)
 }
 
-fn mask(random: &mut Random, cells: u32) -> Vec<u32> {
+/// A mask of random bits that may end too early, or none.
+pub fn mask(random: &mut Random, cells: u32) -> Vec<u32> {
     let words = cells.div_ceil(32);
     let words = random.one_of(&[0, words, words / 2 + 1]);
     (0..words).map(|_| random.next() << 1 | random.next()).collect()
 }
 
 /// Compares push-pull with its reference; returns the words and the count.
-fn pushed_and_pulled<F: Format, V: OfGalpixel>(
+fn pushed_and_pulled<F: Format, V: OfCell>(
     (grid, format, words): (Grid<'_>, F, &[u32]),
     motion: Motion,
     inpainting: &Inpainting<'_>,

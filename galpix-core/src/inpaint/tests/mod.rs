@@ -3,6 +3,7 @@
 extern crate std;
 
 mod map;
+mod picture;
 mod slow;
 
 use std::vec;
@@ -10,7 +11,7 @@ use std::vec::Vec;
 
 use super::kernel::{Known, pulled};
 use super::levels::Levels;
-use super::paint::TintOf;
+use super::paint::{Tint, TintOf};
 use super::reference;
 use super::{Gamma, Inpainting, Motion, Picture, PushPull};
 use crate::error::SetupError;
@@ -100,7 +101,8 @@ impl Holed {
         let [width, height] = self.size;
         let mut colours = self.colours.clone();
         let levels = Levels::new(width, height);
-        let filled = reference::push_pull(&mut self.picture(&mut colours), &levels, inpainting);
+        let mut picture = self.picture(&mut colours);
+        let filled = reference::push_pull(&mut picture.holes::<Tint>(inpainting.mask, &[]), &levels, inpainting);
         (colours, filled)
     }
 }
@@ -187,8 +189,9 @@ fn brightness_does_not_drift_over_levels() {
     let mut colours: Vec<u32> = (0..SIDE * SIDE).map(|_| random.below(256) * 0x01_0101).collect();
     let mean = colours.iter().map(|&colour| f64::from(colour & 255)).sum::<f64>() / f64::from(SIDE * SIDE);
     let known = vec![u32::MAX; (SIDE * SIDE / 32) as usize];
-    let picture = Picture::new(SIDE, SIDE, Colour::RGB888, &mut colours, &known).unwrap();
-    let base = reference::Plane::new([SIDE, SIDE], |x, y| super::push_pull::Holed::known(&picture, x, y));
+    let mut picture = Picture::new(SIDE, SIDE, Colour::RGB888, &mut colours, &known).unwrap();
+    let holes = picture.holes::<Tint>(&[], &[]);
+    let base = reference::Plane::new([SIDE, SIDE], |x, y| super::push_pull::Holed::known(&holes, x, y));
     let planes = reference::pulled_up(base, &Inpainting::classic());
     let top = planes.last().unwrap().at((0, 0)).value.channels()[1];
     assert!((f64::from(top) / 4.0 - mean).abs() < 0.3, "{} and not {mean}", f64::from(top) / 4.0);

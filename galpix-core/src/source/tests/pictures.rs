@@ -91,6 +91,48 @@ fn a_still_picture_is_shown_as_it_is_stored() {
     }
 }
 
+/// Displacements of any samples, from the numbers of their cells.
+#[test]
+fn a_cell_has_moved_from_where_its_sample_is_stored() {
+    let mut random = Random(8);
+    let mut seen = [0; 3];
+    for (turn, shape) in SHAPES.into_iter().cycle().take(5 * SHAPES.len()).enumerate() {
+        let (frac, layout) = FORMATS[turn % FORMATS.len()];
+        let format = format(frac, layout);
+        let look = LOOKS[turn / SHAPES.len()];
+        let mut layers = [look, Look::Grown].map(|look| random_layer(&mut random, shape, format, look));
+        with_sources(shape, format, &mut layers, &mut Random(9), |sources| {
+            sources.step(&Settings::for_depth(16));
+            let grid = *sources.base().unwrap().grid();
+            let width = grid.width();
+            for y in 0..grid.height() {
+                let mut moved = vec![!0; width as usize];
+                sources.moved(y, &mut moved);
+                for (x, word) in (0..width).zip(moved) {
+                    let way = sources
+                        .shown(y * width + x)
+                        .map(|(_, sample)| [x as i32 - (sample % width) as i32, y as i32 - (sample / width) as i32]);
+                    assert_eq!(word, crate::layers::displacement_word(way.unwrap_or_default()), "{shape:?} {look:?}");
+                    seen[way.map_or(0, |way| 1 + usize::from(way != [0; 2]))] += 1;
+                }
+            }
+        });
+    }
+    assert!(seen.iter().all(|&cells| cells > 200), "{seen:?}");
+    // A near galpixel that goes right and down leaves a hole where a still picture knows nothing.
+    run((4, 3), &[&|x, y| gray(99, if [x, y] == [0, 0] { 0.2 } else { 0.8 }, [f64::from(x == 0 && y == 0); 2])], 2, {
+        |frame, sources, _| {
+            let mut rows = [[!0; 4]; 3];
+            for (y, row) in (0..).zip(&mut rows) {
+                sources.moved(y, row);
+            }
+            let mut expected = [[0; 4]; 3];
+            expected[frame as usize][frame as usize] = frame << 16 | frame;
+            assert_eq!(rows, expected);
+        }
+    });
+}
+
 /// Makes a picture of a random map: without motion or debris, and with few depths.
 fn still(random: &mut Random, sources: Shown<'_, '_, '_>, variety: u32) {
     let settings = Settings::for_depth(sources.base().unwrap().record().depth().bits.into());

@@ -122,6 +122,12 @@ fn rows_beyond_the_map_and_buffers_of_any_size_do_no_harm() {
                     }
                     let (mut known, mut depths) = (vec![0; length / 32], vec![!0; length]);
                     sources.known(y, &mut known, &mut depths);
+                    // Farther than any of these maps is wide.
+                    const FAR: u32 = 0x7777_7777;
+                    let mut moved = vec![FAR; length];
+                    sources.moved(y, &mut moved);
+                    assert!(!full || !moved[..width].contains(&FAR), "{y} {length}");
+                    assert!(moved.iter().skip(if full { width } else { 0 }).all(|&word| word == FAR), "{y} {length}");
                     // Rows of which one may have another length.
                     let row = vec![3; width];
                     for (lengths, written) in

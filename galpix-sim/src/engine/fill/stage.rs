@@ -1,11 +1,11 @@
 //! The core's inpainting over memory of the host.
 
-use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, PushPull, Recipe};
+use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, Picture, PushPull, Recipe};
 use galpix_core::{Grid, Maps, Settings};
 
 use super::{Inpaint, Kind, in_fovea};
 
-/// Inpaints maps of one grid, frame by frame.
+/// Inpaints maps of one grid, or pictures of all of its cells, frame by frame.
 pub struct Inpainter {
     inpaint: Inpaint,
     size: [u32; 2],
@@ -33,7 +33,7 @@ impl Memory {
 }
 
 impl Inpainter {
-    /// Makes an inpainter for maps over this grid.
+    /// Makes an inpainter for maps or pictures over this grid.
     #[must_use]
     pub fn new(grid: &Grid<'_>, inpaint: Inpaint) -> Self {
         let size = [grid.width(), grid.height()];
@@ -45,16 +45,11 @@ impl Inpainter {
     /// Inpaints what the last step uncovered, which was made with `settings`.
     pub fn paint<'p>(&mut self, maps: &mut impl Maps<'p>, settings: &Settings) {
         let depth_bits = u32::from(maps.shown().record().depth().bits);
-        let gamma = self.inpaint.gamma;
-        let inpainting = if self.inpaint.depth_aware {
-            Inpainting::for_edge_threshold(settings.edge_threshold, depth_bits, gamma)
-        } else {
-            Inpainting { gamma, ..Inpainting::classic() }
-        };
-        let inpainting = Inpainting { mask: &self.mask, ..inpainting };
-        let [width, height] = self.size;
+        let Self { inpaint, size: [width, height], memory, mask } = self;
+        let inpainting = inpainting(*inpaint, [settings.edge_threshold, depth_bits], mask);
+        let (width, height) = (*width, *height);
         // Memory of the grid's size is long enough.
-        match &mut self.memory {
+        match memory {
             Memory::PushPull(words) => {
                 if let Ok(mut push_pull) = PushPull::new(width, height, Motion::Inpainted, words) {
                     maps.inpaint(settings, &inpainting, &mut push_pull);
@@ -68,6 +63,36 @@ impl Inpainter {
             }
         }
     }
+
+    /// Inpaints the holes of a picture by an edge threshold for its depths of so many bits. `moved` is that of
+    /// [`Metamer::fill_picture`].
+    pub fn paint_picture(&mut self, picture: &mut Picture<'_>, threshold: [u32; 2], moved: &[u32]) {
+        let Self { inpaint, size: [width, height], memory, mask } = self;
+        let inpainting = inpainting(*inpaint, threshold, mask);
+        match memory {
+            Memory::PushPull(words) => {
+                if let Ok(mut push_pull) = PushPull::new(*width, *height, Motion::Kept, words) {
+                    push_pull.fill_picture(picture, &inpainting);
+                }
+            }
+            Memory::Metamer(words, workspace) => {
+                if let Ok(mut metamer) = Metamer::new(*width, *height, Recipe::default(), words, workspace) {
+                    let done = metamer.fill_picture(picture, &inpainting, moved);
+                    debug_assert!(done.is_ok(), "{done:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Returns how to inpaint by an edge threshold for depths of so many bits.
+const fn inpainting(inpaint: Inpaint, [edge_threshold, depth_bits]: [u32; 2], mask: &[u32]) -> Inpainting<'_> {
+    let inpainting = if inpaint.depth_aware {
+        Inpainting::for_edge_threshold(edge_threshold, depth_bits, inpaint.gamma)
+    } else {
+        Inpainting { gamma: inpaint.gamma, ..Inpainting::classic() }
+    };
+    Inpainting { mask, ..inpainting }
 }
 
 /// Returns a bit for each cell of a map that is on the display and outside of the fovea, or in the margin.
