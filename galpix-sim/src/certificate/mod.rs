@@ -7,8 +7,8 @@
 //! because `v += a`: these residue classes, times the phases of the frame counter, are enumerated completely. The lemma
 //! is proved in `docs/error-bounds.md`.
 //!
-//! The snap to a cell, at most half a pixel, is the same for any method and is not included. A galpixel that saturates
-//! is counted, and not covered by the certificate.
+//! What scan-out adds, [`shown_off_px`], is not included: it does not accumulate. A galpixel that saturates is counted,
+//! and not covered by the certificate.
 
 mod drift;
 mod smallest;
@@ -19,6 +19,7 @@ use galpix_core::Rounding;
 use galpix_core::record::Scale;
 use serde::Serialize;
 
+use crate::engine::ScanOut;
 use drift::Drift;
 pub use smallest::{Unreachable, smallest};
 
@@ -129,6 +130,17 @@ impl Certificate {
     pub fn after(&self, frame: u32) -> Option<f64> {
         Some(self.frames.get(frame.checked_sub(1)? as usize)?.total_px())
     }
+}
+
+/// Returns by how much the place where a galpixel is shown differs at most from its position, in pixels and in each
+/// component. Nearest shows it in the middle of a cell; sub-cell to the nearest 16th of a cell.
+#[must_use]
+pub fn shown_off_px(scan_out: ScanOut, position_frac: u32) -> f64 {
+    let step: f64 = match scan_out {
+        ScanOut::Nearest => 1.0,
+        ScanOut::SubCell => 1.0 / 16.0,
+    };
+    if 0.5f64.powi(position_frac as i32) < step { step / 2.0 } else { 0.0 }
 }
 
 /// Returns the largest errors after `frame` frames from storing position, velocity and acceleration to nearest, in

@@ -128,3 +128,41 @@ fn states_of_one_class_drift_alike() {
         }
     }
 }
+
+/// Every offset of up to eight fraction bits, as stationary sources show it.
+#[test]
+fn what_is_shown_is_off_by_at_most_as_much_as_stated() {
+    use crate::engine::ScanOut;
+    use galpix_core::fixed::types::I32F32;
+    use galpix_core::source::{Source, Sources, Visibility, link_words};
+    use galpix_core::{Dynamic, Galpixel, Galpixmap, Grid, Margin, Settings};
+
+    for position_frac in 0..=8 {
+        let plane = Bits::derive(demand(16)).unwrap();
+        let component = Component { position_frac, ..plane.x };
+        let format = Dynamic::new(plane.with_xy(component, component), Layout::FULL).unwrap();
+        let mut starts = [0; 1];
+        let grid = Grid::new(5, 1, Margin::NONE, &mut starts).unwrap();
+        let mut worst = [0.0f64; 2];
+        for offset in -(1i64 << position_frac >> 1)..(1i64 << position_frac).div_ceil(2).max(1) {
+            let mut words = vec![0; Galpixmap::words(&grid, format)];
+            let mut map = Galpixmap::new(grid, format, &mut words).unwrap();
+            let offset = I32F32::from_bits(offset << (32 - position_frac));
+            map.store(2, 0, &Galpixel { offset: [offset, I32F32::ZERO], ..Galpixel::default() });
+            let (mut displacements, mut links) = (vec![0; 5], vec![0; link_words(&grid)]);
+            let mut layers = [Source::new(map, &mut displacements, &mut links).unwrap()];
+            layers[0].begin(0);
+            let (mut keys, mut words, mut line) = (vec![0; 5], vec![0; 5], vec![0; Visibility::line_half_words(&grid)]);
+            let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line).unwrap();
+            let mut sources = Sources::new(&mut layers, visibility).unwrap();
+            sources.show(&Settings::for_depth(16));
+            let (_, word) = sources.entry(2).expect("the sample is seen in its cell");
+            let residual = (word << 22) as i32 >> 27;
+            let offset = offset.to_num::<f64>();
+            worst[0] = worst[0].max(offset.abs());
+            worst[1] = worst[1].max((offset + f64::from(residual) / 16.0).abs());
+        }
+        let stated = [ScanOut::Nearest, ScanOut::SubCell].map(|scan_out| shown_off_px(scan_out, position_frac));
+        assert_eq!(worst, stated, "{position_frac} fraction bits");
+    }
+}

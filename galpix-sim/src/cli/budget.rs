@@ -8,7 +8,8 @@ use serde::Serialize;
 
 use super::choices::{RoundingChoice, pixels};
 use super::{CliError, print, print_json};
-use crate::certificate::{Certificate, Method, smallest};
+use crate::certificate::{Certificate, Method, shown_off_px, smallest};
+use crate::engine::ScanOut;
 use crate::study::run::BudgetReport;
 
 /// A layout by its name, with what it carries in words.
@@ -121,8 +122,17 @@ struct Printed {
     max_error_px: Option<f64>,
     certificate: Certificate,
     keeps_one_pixel: bool,
+    displayed: DisplayedReport,
     /// The same widths with each rounding.
     roundings: Vec<RoundingReport>,
+}
+
+/// How far in x and in y a galpixel is shown at most from where it should be, in pixels: the certificate's total and
+/// what scan-out adds.
+#[derive(Serialize)]
+struct DisplayedReport {
+    nearest_px: f64,
+    sub_cell_px: f64,
 }
 
 #[derive(Serialize)]
@@ -192,6 +202,10 @@ impl Budget {
             },
             max_error_px: self.max_error,
             keeps_one_pixel: certificate.keeps_one_pixel(),
+            displayed: DisplayedReport {
+                nearest_px: certificate.total_px + shown_off_px(ScanOut::Nearest, plane.position_frac),
+                sub_cell_px: certificate.total_px + shown_off_px(ScanOut::SubCell, plane.position_frac),
+            },
             certificate,
             roundings: roundings.into(),
         })
@@ -256,8 +270,9 @@ fn text(printed: &Printed) -> String {
     }
     let promise = if printed.keeps_one_pixel { "holds" } else { "does not hold" };
     text.push_str(&format!(
-        "The paper's promise of one pixel for {} frames {promise}. The snap to a cell, at most half a pixel, stands apart.",
-        report.prop
+        "The paper's promise of one pixel for {} frames {promise}. On the screen: {:.4} px in whole cells (nearest), {:.4} \
+         px with sub-cell scan-out.",
+        report.prop, printed.displayed.nearest_px, printed.displayed.sub_cell_px
     ));
     text
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::choices::AccelerationChoice;
+use super::choices::{AccelerationChoice, SchemeChoice};
 use super::drive::{Publication, drive};
 use super::{CliError, call};
 use crate::study::job::Request;
@@ -23,6 +23,9 @@ pub struct LayersArguments {
     /// How far a second layer lies behind the first at least, as a part of the depth range
     #[arg(long, value_name = "PART", default_value_t = crate::source::hidden::SEPARATION, value_parser = super::hidden::separation)]
     separation: f64,
+    /// How galpixels move: with source, layers are further sources
+    #[arg(long, value_enum, value_name = "SCHEME", default_value = "source")]
+    scheme: SchemeChoice,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
@@ -38,7 +41,7 @@ pub struct LayersArguments {
 impl LayersArguments {
     /// Compares the strategies.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = Request { frames: self.frames, ..Request::default() };
+        let request = Request { frames: self.frames, ..Request::default() }.in_scheme(self.scheme.into());
         let plan = Plan { request, strategies: layers::strategies(self.separation) };
         let sources = call::sources(&self.sources, &self.acceleration.into())?;
         drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "layers"))

@@ -87,7 +87,7 @@ fn table(report: &RunReport) -> String {
     let mut lines = vec![
         format!(
             "{}: {}x{}, D = {}, tau_recog = {}, tau_prop = {}, {} bytes per galpixel, {} rounding, fill {}, scheme {}, \
-             scan-out {}, certified {:.4} px up to frame {}",
+             scan-out {}, certified {:.4} px up to frame {}, {:.4} px on the screen",
             printable(&report.source),
             report.width,
             report.height,
@@ -100,7 +100,8 @@ fn table(report: &RunReport) -> String {
             report.scheme,
             report.scan_out,
             report.certificate.total_px,
-            report.budget.prop
+            report.budget.prop,
+            report.displayed_px
         ),
         format!(
             "{} galpixels, {} cells start empty, {} fields clamped; {:.1} ns a galpixel",

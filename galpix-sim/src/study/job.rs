@@ -84,6 +84,12 @@ impl Default for Request {
 }
 
 impl Request {
+    /// Returns the same in a scheme, with its usual fill and scan-out.
+    #[must_use]
+    pub fn in_scheme(self, scheme: Scheme) -> Self {
+        Self { scheme, fill: scheme.fill(), scan_out: scheme.scan_out(), ..self }
+    }
+
     /// Returns the frames to extrapolate: the requested number, else the source's own.
     #[must_use]
     pub fn frames(&self, source: &Source) -> u32 {
@@ -158,6 +164,7 @@ impl<'s> Job<'s> {
         let demand = request.demand(&update, frames);
         let layout = layout(&update);
         let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
+        let bits = request.scan_out.finest(bits);
         let format = Dynamic::new(bits, layout)?;
         let settings = request.settings(format.record(), update.depth_kind);
         Ok(Self { source, update, frames, demand, bits, format, settings, request: *request })
@@ -174,8 +181,8 @@ impl<'s> Job<'s> {
     /// Returns the same job in another scheme, with its usual fill and scan-out.
     #[must_use]
     pub fn with_scheme(&self, scheme: Scheme) -> Self {
-        let request = Request { scheme, scan_out: scheme.scan_out(), ..self.request };
-        Self { request, ..self.clone() }.with_fill(scheme.fill())
+        let request = self.request.in_scheme(scheme);
+        Self { request, ..self.clone() }.with_fill(request.fill)
     }
 
     /// Returns the same job with positions rounded in another strategy.

@@ -156,7 +156,7 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--fills", "extend,paint"], &["`paint`", "push-pull"]),
         (&["crossing", "--gamma", "0.7"], &["gamma", "1/2"]),
         (&["crossing", "--fovea", "0"], &["fovea"]),
-        (&["crossing", "--scheme", "source", "--fills", "bullet,metamer"], &["--fills bullet,metamer", "push-pull"]),
+        (&["crossing", "--scheme", "source", "--fills", "bullet,debris"], &["--fills bullet,debris", "push-pull"]),
         (&["crossing", "--scheme", "paint"], &["map", "source"]),
         (&["crossing", "--frames", "0"], &["frames"]),
         (&["crossing", "--out", "file/below"], &["cannot be written", "--out"]),

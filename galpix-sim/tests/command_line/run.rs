@@ -78,8 +78,8 @@ fn run_as_json_is_one_document_and_writes_the_frames() {
     let report = json(folder.path(), &["run", "still", "--json"]);
     assert_report(&report, 24);
     assert_eq!(
-        [&report["source"], &report["rounding"], &report["fill"]].map(|value| value.as_str().unwrap()),
-        ["still", "low-discrepancy", "extend"]
+        [&report["source"], &report["rounding"], &report["scheme"], &report["fill"], &report["scan_out"]],
+        ["still", "low-discrepancy", "source", "push-pull", "sub-cell"]
     );
     assert_eq!([&report["budget"]["extent"], &report["budget"]["recog"], &report["budget"]["prop"]], [256, 8, 32]);
     assert!(report["frames"].as_array().unwrap().iter().all(|frame| frame["truth"].is_object()), "a scene has a truth");
@@ -169,16 +169,16 @@ fn what_stationary_sources_do_not_have_is_refused_and_what_they_have_is_named() 
 fn stationary_sources_are_inpainted_outside_of_the_fovea() {
     let folder = folder();
     let frame = |name: &str, more: &[&str]| {
-        let arguments = ["run", "ball", "--scheme", "source", "--frames", "3", "--out", name, "--fill"];
+        let arguments = ["run", "ball", "--scheme", "source", "--frames", "8", "--out", name, "--fill"];
         json(folder.path(), &[&arguments[..], more, &["--json"]].concat());
-        std::fs::read(folder.path().join(name).join("0003.png")).expect("a frame")
+        std::fs::read(folder.path().join(name).join("0008.png")).expect("a frame")
     };
     let extended = frame("extend", &["extend"]);
     let mut shown = std::collections::HashSet::from([extended.clone()]);
     for fill in ["push-pull", "metamer"] {
         assert_eq!(frame("all", &[fill, "--fovea", "1000"]), extended, "{fill}");
         assert!(
-            shown.insert(frame("none", &[fill])) && shown.insert(frame("some", &[fill, "--fovea", "60"])),
+            shown.insert(frame("none", &[fill])) && shown.insert(frame("some", &[fill, "--fovea", "80"])),
             "{fill}"
         );
     }
@@ -192,7 +192,7 @@ fn sub_cell_scan_out_changes_what_is_shown_and_nothing_else() {
     let [nearest, resampled] = ["nearest", "sub-cell"].map(|mode| {
         let report = json(
             folder.path(),
-            &["run", &source, "--frames", "4", "--prop", "16", "--scan-out", mode, "--out", mode, "--json"],
+            &["run", &source, "--frames", "4", "--prop", "32", "--scan-out", mode, "--out", mode, "--json"],
         );
         assert_eq!(report["scan_out"], mode);
         report

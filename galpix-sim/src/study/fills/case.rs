@@ -80,9 +80,9 @@ mod tests {
         let (both, left_out) = in_schemes(&cases, &[Scheme::Map, Scheme::Source]);
         let sources: Vec<String> = both[cases.len()..].iter().map(Case::label).collect();
         assert_eq!(both[..cases.len()], cases);
-        let expected = ["none", "hold", "extend", CLASSIC, "push-pull"].map(|name| format!("source-{name}"));
+        let expected = ["none", "hold", "extend", CLASSIC, "push-pull", "metamer"].map(|name| format!("source-{name}"));
         assert_eq!(sources, expected);
-        assert_eq!(left_out, ["Stationary sources do not have debris, bullet, galdebris, metamer: left out."]);
+        assert_eq!(left_out, ["Stationary sources do not have debris, bullet, galdebris: left out."]);
         let gammas = |case: &Case| case.fill.inpaint().map(|inpaint| inpaint.gamma);
         let given: Vec<_> = all(Some(Gamma::One), Some(9)).iter().filter_map(gammas).collect();
         assert_eq!((given[0], &given[1..]), (Gamma::Zero, [Gamma::One; Kind::ALL.len()].as_slice()));

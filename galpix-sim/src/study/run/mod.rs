@@ -12,7 +12,7 @@ pub use report::{BudgetReport, ChangeReport, FrameReport, PositionReport, RunRep
 pub use work::work_gain;
 
 use super::job::Job;
-use crate::certificate::Certificate;
+use crate::certificate::{Certificate, shown_off_px};
 use crate::engine::Frame;
 use crate::metric::stats::median;
 use crate::picture::Picture;
@@ -68,7 +68,8 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         }
     })?;
     let times: Vec<f64> = reports.iter().map(|report: &FrameReport| report.ns_per_galpixel).collect();
-    let layout = format.record().layout();
+    let (layout, scale) = (format.record().layout(), &format.record().scales[0]);
+    let certificate = Certificate::of(scale, layout.acceleration, request.rounding, demand.prop);
     Ok(RunReport {
         source: source.name().to_owned(),
         width: update.display_width(),
@@ -83,7 +84,8 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         loaded: ran.loaded,
         hidden: (request.strategy != Strategy::ONE).then(|| HiddenReport::of(request.strategy, &carried, &ran)),
         census: source.census().cloned(),
-        certificate: Certificate::of(&format.record().scales[0], layout.acceleration, request.rounding, demand.prop),
+        displayed_px: certificate.total_px + shown_off_px(request.scan_out, scale.position_frac),
+        certificate,
         frames: reports,
     })
 }
