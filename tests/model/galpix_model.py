@@ -2974,7 +2974,7 @@ def rule_names():
               "14 push: mean, halves", "14 push: mean, of the sample most", "14 hole takes colour and motion",
               "14 hole takes colour alone", "14 hole without a sample", "14 map of one cell"]
     names += [f"15 noise by {scale}{coloured}" for scale in NOISE_FACTORS for coloured in ("", ", coloured")]
-    names += ["15 level clamped", "15 channel clamped", "15 response known", "15 response not known: validity",
+    names += ["15 level clamped", "15 response known", "15 response not known: validity",
               "15 response not known: depth", "15 detail, moved", "15 detail, not moved", "15 a single cell",
               "15 L is top", "15 L below top", "15 no sample of tones", "15 no sample of statistics",
               "15 cell takes a mean", "15 cell takes the sum"]

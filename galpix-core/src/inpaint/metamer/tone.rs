@@ -200,6 +200,13 @@ mod tests {
     }
 
     #[test]
+    fn details_leave_no_channel_beyond_the_range_of_a_colours() {
+        let tone = Tone { channels: [510, 1020, -1020], source: 3 };
+        assert_eq!(tone.detailed([510, 1, -1]), Tone { channels: [1020, 1020, -1020], ..tone });
+        assert_eq!(tone.detailed([-9000, -7, 8000]), Tone { channels: [-1020, 1013, 1020], ..tone });
+    }
+
+    #[test]
     fn usual_weights_need_no_product() {
         let tone = |k: i16| Tone { channels: [k, -k, 1020 - k], source: k as u32 };
         for k in 0..500 {
