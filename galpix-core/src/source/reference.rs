@@ -1,4 +1,4 @@
-//! The passes over stationary sources one sample or cell at a time, in the words of section 21 of the specification: for
+//! The passes over stationary sources one sample or cell at a time, as section 21 of the specification has them: for
 //! tests, and for the feature `check`.
 
 use super::Source;

@@ -2,7 +2,8 @@
 
 use clap::{Args, ValueEnum};
 
-use crate::source::hidden::{Kind, RADIUS, SEPARATION, Strategy};
+use crate::engine::Scheme;
+use crate::source::hidden::{Arrangement, Kind, RADIUS, SEPARATION, Strategy};
 
 /// What is known behind the first layer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -33,8 +34,10 @@ pub struct HiddenArguments {
 }
 
 impl HiddenArguments {
-    /// Returns the strategy that these arguments mean.
-    pub fn strategy(&self) -> Strategy {
+    /// Returns the strategy that these arguments mean in a scheme. In a map a surface that covers something is in a
+    /// layer of its own, for what it passes in front of would be lost; stationary sources lose nothing, and what is
+    /// seen stays one source.
+    pub fn strategy(&self, scheme: Scheme) -> Strategy {
         let separation = self.separation.unwrap_or(SEPARATION);
         let kind = match self.hidden {
             HiddenChoice::None => return Strategy::ONE,
@@ -42,7 +45,11 @@ impl HiddenArguments {
             HiddenChoice::Ddoc => Kind::Ddoc { radius: RADIUS },
             HiddenChoice::Unlimited => Kind::Unlimited,
         };
-        Strategy { kind, culled: !self.uncut, ..Strategy::ONE }
+        let arrangement = match scheme {
+            Scheme::Map => Arrangement::Farther,
+            Scheme::Source => Arrangement::Nearer,
+        };
+        Strategy { kind, arrangement, culled: !self.uncut }
     }
 }
 

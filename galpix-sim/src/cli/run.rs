@@ -34,7 +34,8 @@ pub struct Run {
 impl Run {
     /// Runs the source.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = Request { strategy: self.hidden.strategy(), ..self.extrapolation.request()? };
+        let request = self.extrapolation.request()?;
+        let request = Request { strategy: self.hidden.strategy(request.scheme), ..request };
         let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         let job = Job::resolve(&source, &request).map_err(CliError::unusable)?;
         run::check_strategy(&source, request.strategy).map_err(CliError::unusable)?;

@@ -147,8 +147,8 @@ impl<F: Format> Pass<'_, '_, F> {
         alone
     }
 
-    /// Gathers the cells of some lanes, which lie in neighbouring quads; returns whether these are quads. `word` is that
-    /// of the first lane.
+    /// Gathers the cells of some lanes, which lie in neighbouring quads; returns whether these are quads. `word` is the
+    /// first lane's.
     #[inline(never)]
     fn mix<const N: usize>(
         &mut self,
