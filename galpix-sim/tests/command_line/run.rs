@@ -177,7 +177,7 @@ fn stationary_sources_are_inpainted_outside_of_the_fovea() {
     for fill in ["push-pull", "metamer"] {
         assert_eq!(frame("all", &[fill, "--fovea", "1000"]), extended, "{fill}");
         assert!(
-            shown.insert(frame("none", &[fill])) && shown.insert(frame("some", &[fill, "--fovea", "60"])),
+            shown.insert(frame("none", &[fill])) && shown.insert(frame("some", &[fill, "--fovea", "80"])),
             "{fill}"
         );
     }
