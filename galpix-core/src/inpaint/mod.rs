@@ -11,6 +11,8 @@
 //! 3. [`Metamer`], where a texture is wanted, adds to the same push-pull noise of the mean and the deviation that the
 //!    bands of each level have around the hole. The noise moves with the picture.
 //!
+//! 2. and 3. fill a plain [`Picture`] too, as it is gathered from [stationary sources](crate::source).
+//!
 //! After R. Kuffner dos Anjos et al., "Metameric Inpainting for Image Warping", 2021. Unlike propagation these stages
 //! multiply; they never divide.
 //!

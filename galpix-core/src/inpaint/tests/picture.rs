@@ -103,9 +103,9 @@ fn a_picture_gets_what_a_galpixmap_of_the_same_cells_gets() {
             record.class().set(&mut words, class as u32);
             record.depth().set(&mut words, holed.depths[cell as usize] << fewer);
             record.colour().set(&mut words, holed.colours[cell as usize]);
-            for component in 0..2 {
+            for (component, cells) in velocity.iter().enumerate() {
                 let up = record.scales[component].velocity_frac;
-                record.velocity(component).set(&mut words, (velocity[component] << up) as u32);
+                record.velocity(component).set(&mut words, (cells << up) as u32);
             }
             map.put(cell, &words);
         }

@@ -78,7 +78,7 @@ impl Model {
             sources.moved(y, moved);
         }
         let usual = sources.depth_threshold(plan.settings.edge_threshold);
-        let threshold = paint.eighths.map_or(u32::MAX, |eighths| usual * eighths >> 3);
+        let threshold = paint.eighths.map_or(u32::MAX, |eighths| (usual * eighths) >> 3);
         let length = if paint.masked { bits } else { 0 };
         let mask: Vec<u32> = (0..length).map(|_| random.next() as u32 | random.next() as u32).collect();
         let inpainting = Inpainting { gamma: paint.gamma, threshold, mask: &mask, ..Inpainting::classic() };
@@ -140,7 +140,7 @@ const INPAINTED: [(Scene, GridSize, Paint); 16] = [
     (Scene::Slide, grid(8, 7, [0; 4]), METAMER),
     (Scene::Slide, grid(1, 1, [0; 4]), METAMER),
     (Scene::Drawn(Picture::Empty), grid(12, 9, [0; 4]), METAMER),
-    (Scene::Speckle, grid(1, 23, [0; 4]), Paint { eighths: Some(0), ..metamer(9, Scale::Interval, true, 3) }),
+    (Scene::Speckle, grid(1, 290, [0; 4]), Paint { eighths: Some(0), ..metamer(9, Scale::Interval, true, 3) }),
     (
         Scene::Drawn(Picture::Random),
         grid(30, 20, [0; 4]),
