@@ -144,7 +144,7 @@ fn what_is_shown_is_off_by_at_most_as_much_as_stated() {
         let mut starts = [0; 1];
         let grid = Grid::new(5, 1, Margin::NONE, &mut starts).unwrap();
         let mut worst = [0.0f64; 2];
-        for offset in -(1i64 << position_frac >> 1)..(1i64 << position_frac).div_ceil(2).max(1) {
+        for offset in -(1i64 << position_frac >> 1)..=((1i64 << position_frac) - 1) >> 1 {
             let mut words = vec![0; Galpixmap::words(&grid, format)];
             let mut map = Galpixmap::new(grid, format, &mut words).unwrap();
             let offset = I32F32::from_bits(offset << (32 - position_frac));

@@ -10,6 +10,7 @@ use super::choices::{RoundingChoice, pixels};
 use super::{CliError, print, print_json};
 use crate::certificate::{Certificate, Method, shown_off_px, smallest};
 use crate::engine::ScanOut;
+use crate::study::job::finer;
 use crate::study::run::BudgetReport;
 
 /// A layout by its name, with what it carries in words.
@@ -56,6 +57,9 @@ pub struct Budget {
     /// tau_prop, the frames to survive without an update
     #[arg(long, value_name = "FRAMES", default_value_t = 16)]
     prop: u32,
+    /// Fraction bits of positions in x and y, where tau_prop asks for less: sub-cell scan-out shows 4
+    #[arg(long, value_name = "BITS", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=16))]
+    position_frac: u32,
     /// How positions are rounded
     #[arg(long, value_enum, value_name = "ROUNDING", default_value_t)]
     rounding: RoundingChoice,
@@ -167,7 +171,7 @@ impl Budget {
         let demand = Demand { extent: self.extent, recog: self.recog, prop: self.prop };
         let rounding = self.rounding.into();
         let bits = if layout.acceleration { Bits::derive(demand) } else { Bits::derive_without_acceleration(demand) };
-        let bits = bits.map_err(impossible)?;
+        let bits = finer(bits.map_err(impossible)?, self.position_frac);
         let plane: Component = match self.max_error {
             Some(error) => smallest(bits.x, rounding, self.prop, error).map_err(CliError::unusable)?.0,
             None => bits.x.shaved(shave(&self.shave)).map_err(impossible)?,

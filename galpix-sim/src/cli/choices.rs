@@ -216,6 +216,9 @@ pub struct Extrapolation {
     /// tau_prop, the frames to survive without an update [default: the next power of two of the frames]
     #[arg(long, value_name = "FRAMES")]
     pub prop: Option<u32>,
+    /// Fraction bits of positions, where tau_prop asks for less: sub-cell scan-out shows 4
+    #[arg(long, value_name = "BITS", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=16))]
+    pub position_frac: u32,
     /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
     #[arg(long, value_name = "PART", value_parser = part)]
     pub edge_threshold: Option<f64>,
@@ -262,6 +265,7 @@ impl Extrapolation {
             extent: self.extent,
             recog: self.recog,
             prop: self.prop,
+            position_frac: self.position_frac,
             rounding: self.rounding.into(),
             fill: self.inpainting.of(fill),
             reach: self.reach,

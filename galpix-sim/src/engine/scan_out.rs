@@ -1,13 +1,9 @@
 //! How cells become the pixels of a picture.
 
 use galpix_core::overlay::Overlay;
-use galpix_core::record::Component;
 use galpix_core::scan_out::{Nearest, Over, Sampling};
 use galpix_core::sub_cell::SubCell;
-use galpix_core::{Bits, Dynamic, Galpixmap, Settings};
-
-/// Fraction bits of a position that make a difference with sub-cell scan-out, which resolves a 16th of a cell.
-const SEEN: u32 = 5;
+use galpix_core::{Dynamic, Galpixmap, Settings};
 
 /// What a pixel shows of the galpixels around it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -27,19 +23,6 @@ impl ScanOut {
             Self::Nearest => "nearest",
             Self::SubCell => "sub-cell",
         }
-    }
-
-    /// Returns widths whose positions in x and y have as many fraction bits as can be seen, 5 with sub-cell scan-out.
-    /// Equation (11) asks for fewer in up to 16 frames, which was enough for whole cells.
-    #[must_use]
-    pub fn finest(self, bits: Bits) -> Bits {
-        let finest = match self {
-            Self::Nearest => 0,
-            Self::SubCell => SEEN,
-        };
-        let [x, y] =
-            [bits.x, bits.y].map(|plane| Component { position_frac: plane.position_frac.max(finest), ..plane });
-        bits.with_xy(x, y)
     }
 
     /// Returns the colour words of the display, row by row. Neighbours are of one surface by the edge threshold of the

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use galpix_core::record::Component;
 use galpix_core::stages::{threshold_for_depth, threshold_for_speed};
 use galpix_core::{Bits, BudgetError, Demand, Dynamic, Format, Layout, Record, Rounding, Settings};
 
@@ -46,6 +47,8 @@ pub struct Request {
     pub recog: Option<u32>,
     /// `tau_prop`; the next power of two of the frames if absent.
     pub prop: Option<u32>,
+    /// The fewest fraction bits of positions in x and y, if equation (11) asks for less.
+    pub position_frac: u32,
     /// How positions are rounded.
     pub rounding: Rounding,
     /// What is put into holes.
@@ -71,6 +74,7 @@ impl Default for Request {
             extent: None,
             recog: None,
             prop: None,
+            position_frac: 0,
             rounding: Rounding::default(),
             fill: Fill::default(),
             reach: 1,
@@ -121,6 +125,21 @@ impl Request {
     }
 }
 
+/// Returns the widths for a demand, and galpixels that carry a layout in them.
+fn widths(request: &Request, demand: Demand, layout: Layout) -> Result<(Bits, Dynamic), ExperimentError> {
+    let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
+    let bits = finer(bits, request.position_frac);
+    Ok((bits, Dynamic::new(bits, layout)?))
+}
+
+/// Returns widths whose positions in x and y have so many fraction bits at least.
+#[must_use]
+pub fn finer(bits: Bits, position_frac: u32) -> Bits {
+    let [x, y] =
+        [bits.x, bits.y].map(|plane| Component { position_frac: plane.position_frac.max(position_frac), ..plane });
+    bits.with_xy(x, y)
+}
+
 /// A source, its update, and how it is extrapolated. Copies share the update.
 #[derive(Clone)]
 pub struct Job<'s> {
@@ -163,9 +182,7 @@ impl<'s> Job<'s> {
         let frames = request.frames(source);
         let demand = request.demand(&update, frames);
         let layout = layout(&update);
-        let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
-        let bits = request.scan_out.finest(bits);
-        let format = Dynamic::new(bits, layout)?;
+        let (bits, format) = widths(request, demand, layout)?;
         let settings = request.settings(format.record(), update.depth_kind);
         Ok(Self { source, update, frames, demand, bits, format, settings, request: *request })
     }
