@@ -86,8 +86,8 @@ impl Study for Plan {
             title: "galpix: pictures that keep moving between updates".to_owned(),
             intro: vec![
                 "Each scene below was rendered once, with the motion of every pixel. From that one picture the engine made \
-                 all the frames that follow, with additions and shifts only; a conventional display would have shown the \
-                 first picture until the next one came."
+                 all the frames that follow, and moved every galpixel with additions and shifts only; a conventional \
+                 display would have shown the first picture until the next one came."
                     .to_owned(),
             ],
             facts: vec![
