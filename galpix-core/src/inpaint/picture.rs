@@ -3,7 +3,7 @@
 #[cfg(feature = "check")]
 extern crate std;
 
-use super::kernel::{Known, each};
+use super::kernel::Known;
 use super::mean::tie;
 use super::paint::OfCell;
 use super::push_pull::{Holed, RUN};
@@ -51,7 +51,7 @@ impl<'p> Picture<'p> {
         Ok(Self { width, height, format, colours, known, depths: &[] })
     }
 
-    /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer. Larger ones count as the largest.
+    /// Adds a depth of each cell, of the holes too: below 2^25, smaller is nearer. Of others the low 25 bits count.
     ///
     /// *Errors:* a slice that is too short.
     pub fn with_depths(self, depths: &'p [u32]) -> Result<Self, SetupError> {
@@ -106,10 +106,10 @@ fn bits(mask: &[u32], cell: u32) -> u32 {
     mask.get((cell / WORD) as usize).map_or(0, |word| word >> (cell % WORD))
 }
 
-/// Returns a depth that a pyramid can hold.
+/// Returns what of a depth a pyramid can hold.
 #[inline(always)]
 pub(super) fn pyramid_depth(depth: u32) -> u32 {
-    depth.min((1 << DEPTH_BITS) - 1)
+    depth & ((1 << DEPTH_BITS) - 1)
 }
 
 impl<V: OfCell> Holes<'_, V> {
@@ -214,9 +214,8 @@ impl<V: OfCell> Holed for Holes<'_, V> {
             let (upper, lower) = (cells(depths, upper)?, cells(depths, lower)?);
             let mut uneven = 0;
             for (i, (depth, _)) in run.iter_mut().enumerate() {
-                let [a, b, c, d] = each([upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]], |depth| {
-                    pyramid_depth(depth) as i32
-                });
+                let [a, b, c, d] = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]]
+                    .map(|depth| pyramid_depth(depth) as i32);
                 let (farthest, nearest) = (a.max(b).max(c.max(d)), a.min(b).min(c.min(d)));
                 uneven |= u32::from((farthest - nearest) as u32 > threshold);
                 *depth = farthest as u32;
@@ -225,16 +224,12 @@ impl<V: OfCell> Holed for Holes<'_, V> {
                 return None;
             }
         }
-        let values = |cell: u32| {
-            let mut values = [V::default(); CELLS];
-            for ((value, colour), cell) in values.iter_mut().zip(cells(colours, cell)?).zip(cell..) {
-                *value = V::looked_up(&self.table, colour, cell);
-            }
-            Some(values)
-        };
-        let (upper, lower) = (values(upper)?, values(lower)?);
+        let (above, below) = (cells(colours, upper)?, cells(colours, lower)?);
         for (i, (_, value)) in run.iter_mut().enumerate() {
-            let four = [upper[2 * i], upper[2 * i + 1], lower[2 * i], lower[2 * i + 1]];
+            let at = |row: &[u32; CELLS], cell: u32, x: usize| V::looked_up(&self.table, row[x], cell + x as u32);
+            let (left, right) = (2 * i, 2 * i + 1);
+            let four =
+                [at(&above, upper, left), at(&above, upper, right), at(&below, lower, left), at(&below, lower, right)];
             *value = V::plain_mean(&four, tie(x + i as u32, y, 1));
         }
         Some(run)

@@ -49,10 +49,10 @@ impl<F: Format> Sources<'_, '_, F> {
     }
 
     /// Writes for each cell of row `y` of the map how far from where it is stored the sample that the cell shows is
-    /// seen: column and row of the cell less those of the sample's own cell, as a
-    /// [`displacement_word`](crate::layers::displacement_word); 0 for a cell that shows no sample. For
-    /// [`Metamer::fill_picture`](crate::inpaint::Metamer::fill_picture), so that a texture moves with the picture.
-    /// Nothing is written if there is no such row, or if `moved` is too short; a longer one keeps what is beyond.
+    /// seen: column and row of the cell less those of the sample's own cell, as a [`displacement_word`]; 0 for a cell
+    /// that shows no sample. For [`Metamer::fill_picture`](crate::inpaint::Metamer::fill_picture), so that a texture
+    /// moves with the picture. Nothing is written if there is no such row, or if `moved` is too short; a longer one
+    /// keeps what is beyond.
     ///
     /// *Cost:* a load and an addition for each cell, and a search in the table of row starts wherever a neighbour shows
     /// a sample of another row.
