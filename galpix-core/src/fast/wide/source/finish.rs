@@ -18,8 +18,12 @@ pub(crate) fn finish<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finish<'_
     // Keys of depths that differ by more than the threshold differ by more than twice as much.
     let near = (finish.threshold << 1) as u16;
     let Some(gathered) = finish.gathered[1].get(..width) else { return };
-    for ((x, colours), gathered) in (0..).step_by(RUN).zip(colours.chunks_mut(RUN)).zip(gathered.chunks(RUN)) {
-        colours.copy_from_slice(gathered);
+    for (to, &colour) in colours.iter_mut().zip(gathered) {
+        *to = colour;
+    }
+    for x in (0..width).step_by(RUN) {
+        let end = (x + RUN).min(width);
+        let Some(colours) = colours.get_mut(x..end) else { return };
         // Beyond the ends of the row a cell is its own neighbour, from which it does not differ.
         let own_run = run_at(own, x, last);
         let (left, right) = (run_before(own, x, first), run_at(own, x + 1, last));

@@ -30,19 +30,25 @@ pub(crate) fn gather_row<F: Format>(
         return row::gather_row(layers, visibility, start, gather, colours);
     };
     let mut pass = Pass { layers, width: map.grid().width(), samples: [[[0; RUN + 1]; 3]; 2] };
-    for (x, colours) in (0..).step_by(RUN).zip(colours.chunks_mut(RUN)) {
-        let (keys, words) = visibility.cells_from(start + x, colours.len());
-        if pass.whole(keys, words, colours) {
-            continue;
+    let count = colours.len();
+    let mut x = 0;
+    while x < count {
+        let end = (x + RUN).min(count);
+        let Some(run) = colours.get_mut(x..end) else { return };
+        let (keys, words) = visibility.cells_from(start + x as u32, run.len());
+        if pass.whole(keys, words, run) {
+            x = end;
         }
-        let parts = colours.chunks_mut(PART).zip(keys.chunks(PART)).zip(words.chunks(PART));
-        for (x, ((colours, keys), words)) in (x..).step_by(PART).zip(parts) {
-            let alone = pass.in_runs(keys, words, colours);
-            for (lane, to) in (0..).zip(colours).filter(|(lane, _)| alone >> lane & 1 != 0) {
-                if let Some(colour) = gather_cell(layers, visibility, [start, x + lane], gather) {
+        while x < end {
+            let Some(part) = colours.get_mut(x..(x + PART).min(end)) else { return };
+            let (keys, words) = visibility.cells_from(start + x as u32, part.len());
+            let alone = pass.in_runs(keys, words, part);
+            for (lane, to) in (0..).zip(part).filter(|(lane, _)| alone >> lane & 1 != 0) {
+                if let Some(colour) = gather_cell(layers, visibility, [start, x as u32 + lane], gather) {
                     *to = colour;
                 }
             }
+            x += PART;
         }
     }
 }

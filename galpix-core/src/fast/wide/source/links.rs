@@ -22,8 +22,8 @@ pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links
                 samples.read(map, &values, grid.row(y), x as i32);
             }
             let [mut right, mut below] = [[0; RUN]; 2];
-            pair(&values, |place| along.from(place), &mut right);
-            pair(&values, |place| down[place].from(0), &mut below);
+            pair(&values, [0, 1, 2, 3].map(|place| along.from(place)), &mut right);
+            pair(&values, down.each_ref().map(|samples| samples.from(0)), &mut below);
             let cells = start + x..start + grid.width();
             for ((cell, right), below) in cells.zip(right).zip(below) {
                 if let Some(word) = links.get_mut((cell / WORD) as usize) {
@@ -103,8 +103,7 @@ fn read_field<F: Format, T>(
 /// Sets the two bits of each pair of a run, of which the samples are the second and the third of four in a row or
 /// column, see [`crate::source::links`].
 #[inline(always)]
-fn pair<'s>(values: &[Value; 3], run: impl Fn(usize) -> Run<'s>, bits: &mut [u32; RUN]) {
-    let [before, first, second, after] = [0, 1, 2, 3].map(run);
+fn pair(values: &[Value; 3], [before, first, second, after]: [Run<'_>; 4], bits: &mut [u32; RUN]) {
     let mut steps = [0; RUN];
     for (i, value) in values.iter().enumerate() {
         let lanes = before.values[i].iter().zip(first.values[i]).zip(second.values[i]).zip(after.values[i]);
