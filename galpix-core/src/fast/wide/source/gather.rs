@@ -138,14 +138,17 @@ impl<F: Format> Pass<'_, '_, F> {
         };
         let cells = Cells::new(words, self.width);
         let (mut alone, mut lane) = (0, 0);
-        while lane < PART {
-            if keys[lane] == EMPTY {
+        while let (Some(&key), Some(&word)) = (keys.get(lane), words.get(lane)) {
+            if key == EMPTY {
                 lane += 1;
                 continue;
             }
-            let next = |&end: &usize| cells.quads[end].wrapping_sub(cells.quads[end - 1]) == 1 && keys[end] != EMPTY;
+            let next = |&end: &usize| match (cells.quads.get(end - 1), cells.quads.get(end), keys.get(end)) {
+                (Some(before), Some(quad), Some(&key)) => quad.wrapping_sub(*before) == 1 && key != EMPTY,
+                _ => false,
+            };
             let end = lane + 1 + (lane + 1..PART).take_while(next).count();
-            if !self.mix(&cells, words[lane], lane..end, colours) {
+            if !self.mix(&cells, word, lane..end, colours) {
                 alone |= (1 << end) - (1 << lane);
             }
             lane = end;
@@ -178,8 +181,12 @@ impl<F: Format> Pass<'_, '_, F> {
         let channels = if format.is_gray() { 1 } else { 3 };
         let mut means = [[0u16; N]; 3];
         for ((upper, lower), means) in upper.iter().zip(lower).zip(&mut means).take(channels) {
-            let (own, under) = (&upper[..N], &lower[..N]);
-            let (beside, corner) = (&upper[1..N + 1], &lower[1..N + 1]);
+            let (Some(own), Some(under)) = (upper.first_chunk::<N>(), lower.first_chunk::<N>()) else { return false };
+            let [_, upper @ ..] = upper;
+            let [_, lower @ ..] = lower;
+            let (Some(beside), Some(corner)) = (upper.first_chunk::<N>(), lower.first_chunk::<N>()) else {
+                return false;
+            };
             for lane in 0..N {
                 // A channel has at most 8 bits, so that the sum has 16.
                 let sum = (WEIGHTS as u16 >> 1)
@@ -214,7 +221,7 @@ impl<F: Format> Pass<'_, '_, F> {
         let ((upper, lower), extract) = (field.words(), field.extract());
         let channels = layer.map.record().colour_format().three_channels();
         for (samples, from) in self.samples.iter_mut().zip([quad, quad.wrapping_add(self.width)]) {
-            let plane = |word: usize| layer.map.planes()[word].get(from as usize..)?.split_first_chunk::<N>();
+            let plane = |word: usize| layer.map.planes().get(word)?.get(from as usize..)?.split_first_chunk::<N>();
             let (Some((upper, [upper_last, ..])), Some((lower, [lower_last, ..]))) = (plane(upper), plane(lower))
             else {
                 return false;
