@@ -11,6 +11,7 @@ use super::layer::Source;
 use super::links::Links;
 use super::visibility::{Entry, PARTS, Visibility};
 use crate::format::Format;
+use crate::map::grid::Grid;
 
 /// Samples that are farther from each other in x or y are not looked at as neighbours.
 const SPAN: i32 = 2;
@@ -27,6 +28,26 @@ pub(crate) struct Closed {
     pub holes: u32,
     /// Cells that are still empty.
     pub empty: u32,
+}
+
+/// Decides row by row what takes the place of entries: `decide` postpones them and returns how many. They are shown when
+/// the next row is decided, which the old ones have served as neighbours.
+#[inline(always)]
+pub(crate) fn each_row(
+    grid: &Grid<'_>,
+    visibility: &mut Visibility<'_>,
+    mut decide: impl FnMut(&mut Visibility<'_>, usize, u32) -> usize,
+) {
+    let mut before = None;
+    for (y, &start) in grid.starts().iter().enumerate() {
+        let count = decide(visibility, y, start);
+        if let Some((y, start, count)) = before.replace((y, start, count)) {
+            visibility.settle(y, start, count);
+        }
+    }
+    if let Some((y, start, count)) = before {
+        visibility.settle(y, start, count);
+    }
 }
 
 /// Returns what closes a cell; `None` if nothing does.

@@ -54,14 +54,14 @@ fn reciprocal(number: i32) -> i32 {
     i32::from(RECIPROCALS[mantissa as usize & 63]) >> down << up
 }
 
-/// Shows a quad, if it is stretched; returns whether it was.
+/// Shows a quad, if it is stretched.
 pub(crate) fn draw_one<F: Format>(
     source: &Source<'_, F>,
     visibility: &mut Visibility<'_>,
     first: u32,
     [x, y]: [i32; 2],
     cell: u32,
-) -> bool {
+) {
     let grid = source.map.grid();
     let width = grid.width();
     let [place, right, below, last] = [cell, cell + 1, cell + width, cell + width + 1].map(|cell| source.place(cell));
@@ -71,7 +71,7 @@ pub(crate) fn draw_one<F: Format>(
     let (a, b, c) = (relative(right, [1, 0]), relative(below, [0, 1]), relative(last, [1, 1]));
     let longest = a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs());
     if longest <= STRETCHED {
-        return false;
+        return;
     }
     // The first corner as seen from the first cell of the grid.
     let corner = [(x << CORNER_PARTS) + place[0], (y << CORNER_PARTS) + place[1]];
@@ -82,12 +82,12 @@ pub(crate) fn draw_one<F: Format>(
     };
     let (columns, rows) = (span(corner[0], [a[0], b[0], c[0]]), span(corner[1], [a[1], b[1], c[1]]));
     if columns.1 - columns.0 >= LARGEST || rows.1 - rows.0 >= LARGEST {
-        return false;
+        return;
     }
     // The corners are now known to be near each other, so that no product overflows.
     let area = a[0] * b[1] - b[0] * a[1];
     if area < SMALLEST {
-        return false;
+        return;
     }
     let record = source.map.record();
     let depth = depth(source.map.unsigned(record.depth(), cell), record.depth().bits.into());
@@ -106,7 +106,6 @@ pub(crate) fn draw_one<F: Format>(
             visibility.challenge(target, Entry::new(depth, Kind::Quad, first + cell, residual));
         }
     }
-    true
 }
 
 #[cfg(test)]

@@ -1,14 +1,13 @@
 //! The passes over stationary sources one sample or cell at a time, as section 21 of the specification has them: for
 //! tests, and for the feature `check`.
 
-use super::Source;
-use super::Sources;
-use super::cracks::{Closed, best};
+use super::cracks::{Closed, best, each_row};
 use super::layer::moved;
 use super::links::{FIRST, LINKED, SECOND, Value, WORD, values};
 use super::quads::draw_one;
 use super::row::{Finish, finish_cell};
 use super::visibility::{Entry, Kind, PARTS, Visibility, depth, threshold};
+use super::{Source, Sources};
 use crate::format::Format;
 use crate::format::rounding::Rounding;
 use crate::frame::step::{advance, parts, thresholds};
@@ -61,25 +60,12 @@ fn pair<F: Format>(map: &Galpixmap<'_, F>, values: &[Value; 3], cells: [Option<u
     }
 }
 
-/// Steps and shows all samples, then the stretched quads.
-pub(crate) fn scatter<F: Format>(
-    source: &mut Source<'_, F>,
-    visibility: &mut Visibility<'_>,
-    first: u32,
-    edge_threshold: u32,
-    step: Option<(Rounding, u32)>,
-) -> Tally {
-    let tally = step_and_show(source, visibility, first, edge_threshold, step);
-    draw_quads(source, visibility, first);
-    tally
-}
-
-/// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them. `first` is the number of
-/// the layer's first sample.
+/// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them, then the stretched quads.
+/// `first` is the number of the layer's first sample.
 ///
 /// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last
 /// bit.
-fn step_and_show<F: Format>(
+pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
     first: u32,
@@ -121,22 +107,14 @@ fn step_and_show<F: Format>(
             visibility.challenge(target, entry);
         }
     }
-    tally
-}
-
-/// Shows the stretched quads of a layer; returns how many were drawn.
-fn draw_quads<F: Format>(source: &Source<'_, F>, visibility: &mut Visibility<'_>, first: u32) -> u32 {
-    let grid = *source.map.grid();
-    let links = source.links();
-    let mut drawn = 0;
     for (y, &start) in (0..).zip(grid.starts()) {
         for (x, cell) in (0..grid.width() as i32).zip(start..) {
-            if links.quad(cell) {
-                drawn += u32::from(draw_one(source, visibility, first, [x, y], cell));
+            if source.links().quad(cell) {
+                draw_one(source, visibility, first, [x, y], cell);
             }
         }
     }
-    drawn
+    tally
 }
 
 /// Closes cracks. `threshold` is the edge threshold for depths of an entry.
@@ -144,9 +122,7 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
     let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
     let width = grid.width();
     let mut closed = Closed::default();
-    // Row before: what takes the place of its entries is shown when it has served as a neighbour.
-    let mut before = None;
-    for (y, &start) in grid.starts().iter().enumerate() {
+    each_row(&grid, visibility, |visibility, y, start| {
         let mut count = 0;
         for x in 0..width {
             let own = visibility.at(start + x);
@@ -159,13 +135,8 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
                 count += 1;
             }
         }
-        if let Some((y, start, count)) = before.replace((y, start, count)) {
-            visibility.settle(y, start, count);
-        }
-    }
-    if let Some((y, start, count)) = before {
-        visibility.settle(y, start, count);
-    }
+        count
+    });
     closed
 }
 

@@ -7,7 +7,7 @@ use galpix_core::inpaint::Picture;
 use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
 use galpix_core::{Dynamic, FillMode, Format, Galpixmap, Grid, SetupError, Tally};
 
-use super::fill::{Inpaint, Inpainter};
+use super::fill::{Inpaint, Inpainter, Kind};
 use super::frame::{Frame, Shown, display_cells, places_of};
 use super::load::{grid, margin};
 use super::{Delivered, Engine, EngineError, HiddenLayer, NO_ORIGIN, Pins, Ran, ScanOut, Visit, load};
@@ -65,7 +65,7 @@ struct Canvas {
     /// Colour words, gathered and filled, and the finished ones.
     gathered: Vec<u32>,
     finished: Vec<u32>,
-    /// For inpainting: what is known, its depths, and how far it has moved; empty without.
+    /// For inpainting: what is known and its depths; for metamers, how far it has moved. Empty without.
     known: Vec<u32>,
     depths: Vec<u32>,
     moved: Vec<u32>,
@@ -81,7 +81,7 @@ impl Canvas {
             finished: vec![0; cells],
             known: of(cells.div_ceil(u32::BITS as usize)),
             depths: of(cells),
-            moved: of(cells),
+            moved: of(if inpaint.is_some_and(|inpaint| inpaint.kind == Kind::Metamer) { cells } else { 0 }),
             inpainter: inpaint.map(|inpaint| Inpainter::new(grid, inpaint)),
         }
     }
@@ -195,8 +195,10 @@ impl Engine {
         }
         if let Some(inpainter) = inpainter {
             known.fill(0);
-            for ((y, depths), moved) in (0..).zip(depths.chunks_mut(width)).zip(moved.chunks_mut(width)) {
+            for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
                 sources.known(y, known, depths);
+            }
+            for (y, moved) in (0..).zip(moved.chunks_mut(width)) {
                 sources.moved(y, moved);
             }
             let threshold = [sources.depth_threshold(self.settings.edge_threshold), Sources::<Dynamic>::DEPTH_BITS];

@@ -125,13 +125,6 @@ impl Request {
     }
 }
 
-/// Returns the widths for a demand, and galpixels that carry a layout in them.
-fn widths(request: &Request, demand: Demand, layout: Layout) -> Result<(Bits, Dynamic), ExperimentError> {
-    let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
-    let bits = finer(bits, request.position_frac);
-    Ok((bits, Dynamic::new(bits, layout)?))
-}
-
 /// Returns widths whose positions in x and y have so many fraction bits at least.
 #[must_use]
 pub fn finer(bits: Bits, position_frac: u32) -> Bits {
@@ -182,7 +175,9 @@ impl<'s> Job<'s> {
         let frames = request.frames(source);
         let demand = request.demand(&update, frames);
         let layout = layout(&update);
-        let (bits, format) = widths(request, demand, layout)?;
+        let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
+        let bits = finer(bits, request.position_frac);
+        let format = Dynamic::new(bits, layout)?;
         let settings = request.settings(format.record(), update.depth_kind);
         Ok(Self { source, update, frames, demand, bits, format, settings, request: *request })
     }

@@ -4,16 +4,16 @@ use super::{RUN, run_at, run_before};
 use crate::format::Format;
 use crate::map::grid::Grid;
 use crate::source::Source;
-use crate::source::cracks::{Closed, best};
+use crate::source::cracks::{Closed, best, each_row};
 use crate::source::visibility::{EMPTY, Kind, Visibility};
 
 /// Closes cracks, see [`crate::source::cracks`].
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
     let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
-    let (width, mut closed, mut before) = (grid.width() as usize, Closed::default(), None);
+    let (width, mut closed) = (grid.width() as usize, Closed::default());
     // Keys of depths that differ by more than the threshold differ by more than twice as much.
     let near = (threshold << 1).min(EMPTY.into()) as u16;
-    for (y, &start) in grid.starts().iter().enumerate() {
+    each_row(&grid, visibility, |visibility, y, start| {
         let mut count = 0;
         for x in (0..width).step_by(RUN) {
             let mut flags = [0; RUN];
@@ -30,13 +30,8 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
                 }
             }
         }
-        if let Some((y, start, count)) = before.replace((y, start, count)) {
-            visibility.settle(y, start, count);
-        }
-    }
-    if let Some((y, start, count)) = before {
-        visibility.settle(y, start, count);
-    }
+        count
+    });
     closed
 }
 

@@ -199,9 +199,11 @@ impl<F: Format> Pass<'_, '_, F> {
         }
         let mut mixed = [0; N];
         let [first, second, third] = format.three_channels().map(|channel| channel.shift);
+        let [firsts, seconds, thirds] = &means;
         for lane in 0..N {
-            let [a, b, c] = [0, 1, 2].map(|channel: usize| u32::from(means[channel][lane]));
-            mixed[lane] = if channels == 1 { a << first } else { a << first | b << second | c << third };
+            let word = |means: &[u16; N], shift: u32| u32::from(means[lane]) << shift;
+            let one = word(firsts, first);
+            mixed[lane] = if channels == 1 { one } else { one | word(seconds, second) | word(thirds, third) };
         }
         match (lanes.len() == N, colours.get_mut(lanes.clone()), mixed.get(lanes)) {
             (false, Some(colours), Some(mixed)) => {

@@ -45,7 +45,7 @@ struct Pass<'s, 'p, 'v, 'w, F> {
     /// The number of the first sample.
     first: u32,
     /// How far points lie behind quads.
-    behind: u32,
+    behind: u16,
     thresholds: Option<[i32; 3]>,
     motion_bits: Words,
     tally: Tally,
@@ -65,7 +65,7 @@ pub(crate) fn scatter<F: Format>(
     let mut pass = Pass {
         grid,
         first,
-        behind: threshold(edge_threshold, record.depth().bits.into()) as u32 >> 1,
+        behind: (threshold(edge_threshold, record.depth().bits.into()) >> 1) as u16,
         thresholds: step.map(|(rounding, frame)| thresholds(record, rounding, frame)),
         motion_bits: motion_bits(record),
         tally: Tally::default(),
@@ -259,7 +259,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         let record = format.record();
         let depth_bits = u32::from(record.depth().bits);
         let deepest = (1 << depth_bits) - 1;
-        let behind = self.behind as u16;
+        let behind = self.behind;
         for lane in 0..CHUNK {
             shown.keys[lane] = depth(chunk.keys[lane] & deepest, depth_bits) as u16;
         }
