@@ -135,6 +135,13 @@ pub enum SetupError {
         /// Largest possible number.
         most: u32,
     },
+    /// A layer of stationary sources has more columns than the map of the display.
+    LayerTooWide {
+        /// Columns of the layer.
+        width: u32,
+        /// Columns of the display's map, margin included.
+        most: u32,
+    },
     /// Two maps that work together have different grids.
     GridsDiffer,
     /// The operation identifies objects by their tags, and the layout has no tag.
@@ -156,6 +163,11 @@ impl fmt::Display for SetupError {
                 f,
                 "{samples} samples of all layers are more than the {most} that can be numbered: use a smaller map, or \
                  fewer layers"
+            ),
+            Self::LayerTooWide { width, most } => write!(
+                f,
+                "a layer of {width} columns is wider than the map of the display, which has {most}: store only columns \
+                 that can be seen"
             ),
             Self::GridsDiffer => f.write_str("the two maps have different grids: make both over the same one"),
             Self::NoTag => f.write_str(

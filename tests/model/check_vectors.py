@@ -488,6 +488,14 @@ def read_source_inpainting(case, where, cells, arrays):
                                   get_int(inpaint, "threshold", where), mask or None, texture)
 
 
+def read_layer_grid(entry, grid, where):
+    """The grid of a layer of a source: that of the map, unless it has one of its own."""
+    if "grid" not in entry:
+        return model.Grid(model.columns(grid), model.rows(grid), 0, 0, 0, 0)
+    own = get(entry, "grid", dict, where)
+    return model.Grid(get_int(own, "width", where), get_int(own, "height", where), 0, 0, 0, 0)
+
+
 def check_source(case, where, differences):
     engine = read_engine(case, where)
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
@@ -500,9 +508,12 @@ def check_source(case, where, differences):
     entries = get(case, "layers", list, where)
     for number, entry in enumerate(entries):
         here = f"{where}, layer {number}"
-        words = arrays[f"galpixels_{number}"] = get_words(entry, "galpixels", here, record.words * cells)
-        places = arrays[f"displacements_{number}"] = get_words(entry, "displacements", here, cells)
-        maps.append((model.unpack_map(words, record, cells), [tuple(model.displacement_of(word)) for word in places]))
+        grid = read_layer_grid(entry, engine.grid, here)
+        own = model.columns(grid) * model.rows(grid)
+        words = arrays[f"galpixels_{number}"] = get_words(entry, "galpixels", here, record.words * own)
+        places = arrays[f"displacements_{number}"] = get_words(entry, "displacements", here, own)
+        places = [tuple(model.displacement_of(word)) for word in places]
+        maps.append((grid, model.unpack_map(words, record, own), places))
     sources = model.make_sources(engine, get_int(case, "threshold", where), maps)
     saturated = 0
     for _ in range(steps):
@@ -512,15 +523,15 @@ def check_source(case, where, differences):
     shown = model.show_sources(sources, fill_mode, sub_cell, inpainting)
     numbers = 0
     for number, (entry, layer) in enumerate(zip(entries, sources.layers)):
-        here = f"{where}, layer {number}"
-        links = arrays[f"links_{number}"] = get_words(entry, "links", here, cells)
+        here, own = f"{where}, layer {number}", len(layer.galpixels)
+        links = arrays[f"links_{number}"] = get_words(entry, "links", here, own)
         compare_numbers("links", links, [model.link_number(of) for of in layer.links], here, differences)
-        words = arrays[f"galpixels_after_{number}"] = get_words(entry, "galpixels_after", here, record.words * cells)
+        words = arrays[f"galpixels_after_{number}"] = get_words(entry, "galpixels_after", here, record.words * own)
         compare_map("map after the steps", words, layer.galpixels, engine, here, differences)
-        places = arrays[f"displacements_after_{number}"] = get_words(entry, "displacements_after", here, cells)
+        places = arrays[f"displacements_after_{number}"] = get_words(entry, "displacements_after", here, own)
         compare_numbers("displacement after the steps", places,
                         [model.displacement_word(place) for place in layer.displacements], here, differences)
-        numbers += len(words) + 2 * cells
+        numbers += len(words) + 2 * own
     got = {"keys": [model.entry_key(entry) for entry in shown.entries],
            "entries": [model.entry_word(entry) for entry in shown.entries], "gathered": shown.gathered}
     if sub_cell:

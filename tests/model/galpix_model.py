@@ -2169,7 +2169,7 @@ TRIED = 4                                           # columns or rows that a qua
 NEITHER, FIRST_ENDS, SECOND_ENDS, LINKED = range(4)
 WAYS = ((1, 0), (0, 1), (1, 1), (1, -1))            # t of the cracks, in the order in which they are tried
 
-SourceLayer = namedtuple("SourceLayer", "galpixels displacements links")
+SourceLayer = namedtuple("SourceLayer", "grid galpixels displacements links")
 Sources = namedtuple("Sources", "engine limit e layers")    # limit in units of the depth field, e is E
 Entry = namedtuple("Entry", "depth kind number u v")
 Links = namedtuple("Links", "right below")                  # of each cell, what is said of its two pairs
@@ -2184,6 +2184,20 @@ def to_15_bits(engine, value):
 def depth_of(sources, sample):
     """Section 21: the depth of a sample."""
     return to_15_bits(sources.engine, sample["depth"])
+
+
+def layer_of(sources, number):
+    """Section 21, samples: (layer, cell) of the sample with a number."""
+    for layer, of in enumerate(sources.layers):
+        if number < len(of.galpixels):
+            return layer, number
+        number -= len(of.galpixels)
+    raise AssertionError("no sample has this number")
+
+
+def number_of(sources, layer, cell):
+    """Section 21, samples: the number of the sample at a cell of a layer."""
+    return sum(len(of.galpixels) for of in sources.layers[:layer]) + cell
 
 
 def is_sample(galpixel):
@@ -2214,10 +2228,9 @@ def does_step(four, limit, field):
     return True
 
 
-def link(sources, galpixels, cell, direction):
+def link(sources, grid, galpixels, cell, direction):
     """Section 21, links: what is said of a cell and the one to the right or below; None where that is no pair."""
     engine, side = sources.engine, SIDES[direction]
-    grid = engine.grid
 
     def sample_at(steps):
         column, row = cell % columns(grid), cell // columns(grid)
@@ -2248,9 +2261,9 @@ def link(sources, galpixels, cell, direction):
     return FIRST_ENDS if first else SECOND_ENDS
 
 
-def make_links(sources, galpixels):
+def make_links(sources, grid, galpixels):
     """Section 21, links: of all cells of a layer, when it is updated."""
-    return [Links(*(link(sources, galpixels, cell, direction) or NEITHER for direction in (RIGHT, BELOW)))
+    return [Links(*(link(sources, grid, galpixels, cell, direction) or NEITHER for direction in (RIGHT, BELOW)))
             for cell in range(len(galpixels))]
 
 
@@ -2260,8 +2273,14 @@ def link_number(links):
 
 
 def make_sources(engine, limit, maps):
-    """Section 21: the layers as an update leaves them, of a list of (galpixels, displacements)."""
-    if len(maps) * columns(engine.grid) * rows(engine.grid) > 1 << 22:
+    """Section 21: the layers as an update leaves them, of a list of (grid, galpixels, displacements)."""
+    if (columns(maps[0][0]), rows(maps[0][0])) != (columns(engine.grid), rows(engine.grid)):
+        raise Refused("layer 0 has not the columns and rows of the map")
+    if any(columns(grid) > columns(engine.grid) for grid, _, _ in maps):
+        raise Refused("a layer is wider than the map")
+    if any(columns(grid) < columns(engine.grid) for grid, _, _ in maps):
+        reached["21 a layer with fewer columns"] += 1
+    if sum(len(galpixels) for _, galpixels, _ in maps) > 1 << 22:
         raise Refused("there are more than 2^22 numbers of samples")
     d = engine.widths["depth"]
     reached["21 no depth field" if d == 0 else "21 depth below 15 bits" if d < DEPTH_15 else
@@ -2275,14 +2294,14 @@ def make_sources(engine, limit, maps):
         reached["21 E is 2^15"] += 1
         e = 1 << DEPTH_15
     sources = Sources(engine, limit, e, [])
-    sources.layers.extend(SourceLayer(galpixels, displacements, make_links(sources, galpixels))
-                          for galpixels, displacements in maps)
+    sources.layers.extend(SourceLayer(grid, galpixels, displacements, make_links(sources, grid, galpixels))
+                          for grid, galpixels, displacements in maps)
     return sources
 
 
 def pair(sources, layer, cell, side):
     """Section 21, links: (cell at that side or None, what is said of the two; here the first is `cell` itself)."""
-    other = neighbours(sources.engine.grid, cell)[side]
+    other = neighbours(sources.layers[layer].grid, cell)[side]
     if other is None:
         return None, NEITHER
     if side in (RIGHT, BELOW):
@@ -2304,7 +2323,7 @@ def quad_of(sources, layer, cell):
     right, below = linked_with(sources, layer, cell, RIGHT), linked_with(sources, layer, cell, BELOW)
     if right is None or below is None:
         return None
-    fourth = right + columns(sources.engine.grid)
+    fourth = right + columns(sources.layers[layer].grid)
     if linked_with(sources, layer, right, BELOW) is None or linked_with(sources, layer, below, RIGHT) is None:
         reached["21 no quad only for the fourth sample"] += 1
         return None
@@ -2316,7 +2335,7 @@ def step_sources(sources, rounding, n):
     thresholds = thresholds_of(sources.engine, rounding, n)
     low, high = lowest(16), highest(16)
     layers, saturated = [], 0
-    for galpixels, displacements, links in sources.layers:
+    for grid, galpixels, displacements, links in sources.layers:
         galpixels, displacements = list(galpixels), list(displacements)
         for cell, galpixel in enumerate(galpixels):
             if not is_sample(galpixel):
@@ -2330,7 +2349,7 @@ def step_sources(sources, rounding, n):
                     reached[f"21 displacement in {name} clamped at the {'lowest' if number < got else 'highest'}"] += 1
                     saturated += 1
             displacements[cell] = place
-        layers.append(SourceLayer(galpixels, displacements, links))
+        layers.append(SourceLayer(grid, galpixels, displacements, links))
     return sources._replace(layers=layers), saturated
 
 
@@ -2360,8 +2379,8 @@ def entry_depth(depth, kind):
 def point_of(sources, layer, cell):
     """Section 21, points: (cell on the grid or None, its entry)."""
     engine = sources.engine
-    galpixels, displacements, _ = sources.layers[layer]
-    row, column = divmod(cell, columns(engine.grid))
+    own, galpixels, displacements, _ = sources.layers[layer]
+    row, column = divmod(cell, columns(own))
     column, row = column + displacements[cell][0], row + displacements[cell][1]
     outside = [side for side, off in zip(SIDES, (column < 0, column >= columns(engine.grid), row < 0,
                                                  row >= rows(engine.grid))) if off]
@@ -2372,13 +2391,13 @@ def point_of(sources, layer, cell):
     sample = galpixels[cell]
     residual = (-part_of_bits(engine, sample, number, 4) for number in range(2))
     depth = entry_depth(depth_of(sources, sample) + (sources.e >> 1), POINT)
-    entry = Entry(depth, POINT, layer * len(galpixels) + cell, *residual)
+    entry = Entry(depth, POINT, number_of(sources, layer, cell), *residual)
     return row * columns(engine.grid) + column, entry
 
 
 def place_of(sources, layer, cell):
     """Section 21, stretched quads: P, in 32ths of a cell."""
-    galpixels, displacements, _ = sources.layers[layer]
+    _, galpixels, displacements, _ = sources.layers[layer]
     return tuple(displacements[cell][number] * 32 + part_of_bits(sources.engine, galpixels[cell], number, 5)
                  for number in range(2))
 
@@ -2408,7 +2427,7 @@ def within(number, area):
 def quad_entries(sources, layer, cell, others):
     """Section 21, stretched quads: list of (cell of the grid, entry) that a quad gives."""
     grid = sources.engine.grid
-    row, column = divmod(cell, columns(grid))
+    row, column = divmod(cell, columns(sources.layers[layer].grid))
     own = place_of(sources, layer, cell)
     sides = ((32, 0), (0, 32), (32, 32))
     a, b, d = (tuple(other - mine + side for other, mine, side in zip(place_of(sources, layer, of), own, by))
@@ -2459,7 +2478,7 @@ def quad_entries(sources, layer, cell, others):
                             "21 residual in a quad at most 15"] += 1
                 residual.append(clamp(number, 0, 15))
             sample = sources.layers[layer].galpixels[cell]
-            number = layer * columns(grid) * rows(grid) + cell
+            number = number_of(sources, layer, cell)
             entries.append((j * columns(grid) + i,
                             Entry(entry_depth(depth_of(sources, sample), QUAD), QUAD, number, *residual)))
     reached["21 quad gives entries" if entries else "21 quad gives no entry"] += 1
@@ -2478,12 +2497,13 @@ def all_entries(sources):
         if other is not None:
             level = next(name for name in ("depth", "kind", "number")
                          if getattr(entry, name) != getattr(other, name))
-            several = level == "number" and entry.number // cells != other.number // cells
+            several = level == "number" and \
+                layer_of(sources, entry.number)[0] != layer_of(sources, other.number)[0]
             reached[f"21 entries by {level}{', of several layers' if several else ''}"] += 1
         if other is None or entry[:3] < other[:3]:
             best[cell] = entry
 
-    for layer, (galpixels, _, _) in enumerate(sources.layers):
+    for layer, (_, galpixels, _, _) in enumerate(sources.layers):
         for cell, galpixel in enumerate(galpixels):
             if not is_sample(galpixel):
                 continue
@@ -2507,9 +2527,8 @@ def shown_depth(entry):
 
 def samples_joined(sources, one, other):
     """Section 21, cracks: whether the samples of two numbers are joined."""
-    grid = sources.engine.grid
-    cells = columns(grid) * rows(grid)
-    (layer, cell), (other_layer, target) = divmod(one, cells), divmod(other, cells)
+    (layer, cell), (other_layer, target) = layer_of(sources, one), layer_of(sources, other)
+    grid = sources.layers[layer].grid
     if layer != other_layer:
         reached["21 not joined: layers"] += 1
         return False
@@ -2598,7 +2617,7 @@ def close_cracks(sources, entries):
 def own_colour(sources, entries, cell):
     """Section 21, colour of an entry: the channels s, of the stored colour or in place of it."""
     grid, entry = sources.engine.grid, entries[cell]
-    layer, at = divmod(entry.number, columns(grid) * rows(grid))
+    layer, at = layer_of(sources, entry.number)
     galpixels = sources.layers[layer].galpixels
 
     def channels_at(place):
@@ -2620,7 +2639,7 @@ def own_colour(sources, entries, cell):
         elif entries[beside] is None:
             reached["21 mixed: none beside it"] += 1
         else:
-            above, sample = divmod(entries[beside].number, columns(grid) * rows(grid))
+            above, sample = layer_of(sources, entries[beside].number)
             if depth_of(sources, sources.layers[above].galpixels[sample]) + sources.e < depth:
                 reached["21 mixed: nearer beside it"] += 1
                 continue
@@ -2662,7 +2681,7 @@ def own_colour(sources, entries, cell):
 def colour_of_entry(sources, entries, cell, sub_cell):
     """Section 21, colour of an entry: the channels."""
     engine, entry = sources.engine, entries[cell]
-    layer, at = divmod(entry.number, columns(engine.grid) * rows(engine.grid))
+    layer, at = layer_of(sources, entry.number)
     galpixels = sources.layers[layer].galpixels
 
     def channels_at(place):
@@ -2757,9 +2776,10 @@ def picture_of(sources, entries, mask, channels):
     for cell, entry in enumerate(entries):
         row = cell // width
         if entry is not None:
-            stored = entry.number % len(base)
+            layer, stored = layer_of(sources, entry.number)
+            stored_row, stored_column = divmod(stored, columns(sources.layers[layer].grid))
             depths.append(entry.depth)
-            moved.append((cell % width - stored % width, row - stored // width))
+            moved.append((cell % width - stored_column, row - stored_row))
         else:
             ends = [next((entries[at].depth for at in way if entries[at] is not None), 0)
                     for way in (range(cell - 1, row * width - 1, -1), range(cell + 1, (row + 1) * width))]
@@ -2787,8 +2807,7 @@ def inpaint_sources(sources, inpainting, picture):
 
 def reach_towards(sources, entry, side):
     """Section 21, silhouettes: the reach of an entry towards a side, in sixteenths of a cell."""
-    grid = sources.engine.grid
-    layer, cell = divmod(entry.number, columns(grid) * rows(grid))
+    layer, cell = layer_of(sources, entry.number)
     residual = [entry.u, entry.v]
     for number, (before, after) in enumerate(((LEFT, RIGHT), (ABOVE, BELOW))):
         beyond = after if residual[number] > 8 else before if residual[number] < -8 else None
@@ -2805,7 +2824,7 @@ def reach_towards(sources, entry, side):
         reached["21 reach: does not end"] += 1
         return 0
     number = residual[0 if side in (LEFT, RIGHT) else 1]
-    if cell != entry.number % (columns(grid) * rows(grid)) and number:
+    if cell != layer_of(sources, entry.number)[1] and number:
         along = number != (entry.u if side in (LEFT, RIGHT) else entry.v)
         reached[f"21 reach of another sample{'' if along else ', moved across'}"] += 1
     return number if side in (RIGHT, BELOW) else -number
@@ -3023,7 +3042,7 @@ def rule_names():
     names += [f"20 colour {name}" for name in FORMATS]
     names += [f"20 shown, class {klass}" for klass in range(4)]
     names += ["21 no depth field", "21 depth below 15 bits", "21 depth above 15 bits",
-              "21 one layer", "21 several layers", "21 threshold above 2^31 - 1", "21 E is 2^15",
+              "21 one layer", "21 several layers", "21 a layer with fewer columns", "21 threshold above 2^31 - 1", "21 E is 2^15",
               "21 with sub-cell scan-out", "21 without sub-cell scan-out"]
     names += [f"21 class {klass} is no sample" for klass in (JUST_UNOBSCURED, DEBRIS, EMPTY)]
     names += [f"21 no step only by the difference {which}{just}" for which in ("of the pair", "before", "after")

@@ -76,6 +76,14 @@ impl<F: Format> Stage<F> {
         black_box(self.sources.step(&self.settings));
     }
 
+    /// Steps the samples alone.
+    fn follow(&mut self) {
+        let (rounding, frame) = (self.settings.rounding, self.sources.frame());
+        if let Some(source) = self.sources.layer_mut(0) {
+            black_box(source.step(rounding, frame));
+        }
+    }
+
     /// Makes all rows of the picture: each is finished as soon as the row below it is gathered.
     fn show(&mut self) {
         let edge_threshold = self.settings.edge_threshold;
@@ -120,8 +128,9 @@ fn enter<F: Format + 'static>(
     let stage = Rc::new(RefCell::new(Stage::new(width, height, format, samples)));
     type Run<F> = fn(&mut Stage<F>);
     let nothing: Run<F> = |_| {};
-    let stages: [(&str, Run<F>, Run<F>); 3] = [
+    let stages: [(&str, Run<F>, Run<F>); 4] = [
         ("source: step", Stage::begin, Stage::step),
+        ("source: step, not shown", Stage::begin, Stage::follow),
         ("source: show", nothing, Stage::show),
         ("source: step and show", Stage::begin, |stage| {
             stage.step();

@@ -169,16 +169,16 @@ pub(crate) fn link<F: Format>(map: &Galpixmap<'_, F>, edge_threshold: u32, links
 /// A form of [`super::scatter`].
 type Scatter<F> = fn(&mut Source<'_, F>, &mut Visibility<'_>, u32, u32, Option<(Rounding, u32)>) -> Tally;
 
-/// Runs a pass on a copy of a visibility buffer over the grid of a map. Returns keys and words of the copy afterwards,
-/// and what the pass returned.
-fn on_copied_visibility<F: Format, R>(
-    map: &Galpixmap<'_, F>,
+/// Runs a pass on a copy of a visibility buffer. Returns keys and words of the copy afterwards, and what the pass
+/// returned.
+fn on_copied_visibility<R>(
     visibility: &mut Visibility<'_>,
     pass: impl FnOnce(&mut Visibility<'_>) -> R,
 ) -> (Vec<u16>, Vec<u32>, R) {
+    let grid = visibility.grid();
     let (keys, words, line) = visibility.planes();
     let (mut keys, mut words, mut line) = (keys.to_vec(), words.to_vec(), line.to_vec());
-    let mut copy = Visibility::new(map.grid(), &mut keys, &mut words, &mut line).expect("a copy is as long");
+    let mut copy = Visibility::new(&grid, &mut keys, &mut words, &mut line).expect("a copy is as long");
     let result = pass(&mut copy);
     (keys, words, result)
 }
@@ -196,7 +196,7 @@ pub(crate) fn scatter<F: Format>(
         return;
     }
     let mut made = |scatter: Scatter<F>| {
-        on_copied_visibility(map, visibility, |visibility| {
+        on_copied_visibility(visibility, |visibility| {
             let (mut memory, mut displacements) = (words(map), source.displacements.to_vec());
             let mut links = source.links.to_vec();
             let copy = Galpixmap::over(*map.grid(), map.format(), &mut memory).expect("a copy is as long");
@@ -211,9 +211,11 @@ pub(crate) fn scatter<F: Format>(
 
 /// Compares what both forms show where cracks are closed.
 pub(crate) fn close_cracks<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) {
-    let Some(map) = sources.first().map(Source::map).filter(|map| due(map.grid().cells())) else { return };
-    let expected = on_copied_visibility(map, visibility, |copy| source::reference::close(sources, copy, threshold));
-    let made = on_copied_visibility(map, visibility, |copy| wide::source::cracks::close(sources, copy, threshold));
+    if !due(visibility.grid().cells()) {
+        return;
+    }
+    let expected = on_copied_visibility(visibility, |copy| source::reference::close(sources, copy, threshold));
+    let made = on_copied_visibility(visibility, |copy| wide::source::cracks::close(sources, copy, threshold));
     assert_eq!(made, expected, "the fast form of closing cracks");
 }
 

@@ -202,6 +202,7 @@ passes! {
     fn layers_composite(layers: &mut Layers<'_, '_, Self>) = layers::composite::<Self, false>;
     fn layers_restore(layers: &mut Layers<'_, '_, Self>) = layers::restore::<Self, false>;
     fn source_links(map: &Galpixmap<'_, Self>, edge_threshold: u32, links: &mut [u32]) = link;
+    fn source_step(source: &mut Source<'_, Self>, rounding: Rounding, frame: u32) -> Tally = wide::source::step::step;
     fn sources_draw(
         layers: &mut [Source<'_, Self>],
         visibility: &mut Visibility<'_>,

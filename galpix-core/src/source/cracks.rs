@@ -30,8 +30,8 @@ pub(crate) struct Closed {
     pub empty: u32,
 }
 
-/// Decides row by row what takes the place of entries: `decide` postpones them and returns how many. They are shown when
-/// the next row is decided, which the old ones have served as neighbours.
+/// Decides row by row what takes the place of entries: `decide` postpones them and returns how many. They are shown
+/// when the next row is decided, which the old ones have served as neighbours.
 #[inline(always)]
 pub(crate) fn each_row(
     grid: &Grid<'_>,
@@ -58,7 +58,7 @@ pub(crate) fn best<F: Format>(
     [x, y]: [i32; 2],
     threshold: i32,
 ) -> Option<Entry> {
-    let grid = sources.first()?.map.grid();
+    let grid = visibility.grid();
     let at = |dx: i32, dy: i32| grid.cell(x + dx, y + dy).map_or(Entry::NONE, |cell| visibility.at(cell));
     let own = at(0, 0);
     // What closes the cell must be nearer than this.

@@ -4,7 +4,9 @@ use super::links::{self, Links};
 use crate::error::SetupError;
 use crate::format::Format;
 use crate::format::record::Field;
+use crate::format::rounding::Rounding;
 use crate::frame::step::parts;
+use crate::frame::tally::Tally;
 use crate::layers::{Displacement, displacement, displacement_word};
 use crate::map::Galpixmap;
 
@@ -40,8 +42,24 @@ impl<'p, F: Format> Source<'p, F> {
     ///
     /// `edge_threshold` is that of [`Settings`](crate::Settings): depths that differ by more are of two surfaces.
     pub fn begin(&mut self, edge_threshold: u32) {
-        self.displacements.fill(0);
+        self.begin_at([0, 0], edge_threshold);
+    }
+
+    /// Begins as [`Self::begin`], with the first cell of the layer's grid at column and row `place` of the display's
+    /// map. So a layer that shows one object needs no more cells than the object has. What lies beyond the map is not
+    /// shown until it has moved there. Numbers beyond -32768 to 32767 are clamped.
+    pub fn begin_at(&mut self, place: Displacement, edge_threshold: u32) {
+        self.displacements.fill(displacement_word(place));
         F::source_links(&self.map, edge_threshold, self.links);
+    }
+
+    /// Steps all samples without showing them: a source that is not shown yet follows what it missed. `frame` is the
+    /// frame counter, as [`Sources::frame`](super::Sources::frame) was when the frame was made. Of the counts, `moved`
+    /// and `saturated` are set.
+    ///
+    /// *Cost:* less than half of a frame's step.
+    pub fn step(&mut self, rounding: Rounding, frame: u32) -> Tally {
+        F::source_step(self, rounding, frame)
     }
 
     /// Returns the samples.

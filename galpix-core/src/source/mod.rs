@@ -85,7 +85,7 @@ use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
 use visibility::threshold;
 
-/// Layers of stationary sources over one grid, and what of them is shown.
+/// Layers of stationary sources, and what of them is shown.
 #[derive(Debug)]
 pub struct Sources<'p, 'l, F> {
     pub(crate) layers: &'l mut [Source<'p, F>],
@@ -94,22 +94,28 @@ pub struct Sources<'p, 'l, F> {
 }
 
 impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
-    /// Shows layers, the first of which is the base. [`Self::show`] must follow.
+    /// Shows layers, the first of which is the base: its grid is that of the display. The others may have grids of
+    /// their own, see [`Source::begin_at`]. [`Self::show`] must follow.
     ///
-    /// *Errors:* no layer, layers over different grids, more than [`MOST_SAMPLES`] samples together, a visibility
-    /// buffer of a smaller grid.
+    /// *Errors:* no layer, a base over another grid than the visibility buffer's, a layer of more columns than the
+    /// base, more than [`MOST_SAMPLES`] samples together.
     pub fn new(layers: &'l mut [Source<'p, F>], visibility: Visibility<'p>) -> Result<Self, SetupError> {
-        let Some(grid) = layers.first().map(|layer| *layer.map.grid()) else {
-            return Err(SetupError::Size { width: 0, height: 0 });
-        };
-        if layers.iter().any(|layer| *layer.map.grid() != grid) || visibility.cells() != grid.cells() {
-            return Err(SetupError::GridsDiffer);
-        }
-        let samples = u64::from(grid.cells()) * layers.len() as u64;
-        if samples > u64::from(MOST_SAMPLES) {
-            return Err(SetupError::TooManySamples { samples, most: MOST_SAMPLES });
-        }
+        check(layers.iter(), &visibility)?;
         Ok(Self { layers, visibility, frame: 0 })
+    }
+
+    /// Replaces a layer, as a whole and at once: `source` holds afterwards what the layer was. So an update that
+    /// arrives bit by bit, or late, is written into a spare source, and nothing of it is shown before it is complete;
+    /// frames that it missed meanwhile are made up for by [`Source::step`]. Nothing happens if there is no such layer.
+    ///
+    /// *Errors:* those of [`Self::new`]; then nothing is replaced. *Cost:* that of a check, and no sample is moved.
+    pub fn replace(&mut self, layer: usize, source: &mut Source<'p, F>) -> Result<(), SetupError> {
+        let others = self.layers.iter().enumerate();
+        check(others.map(|(number, old)| if number == layer { &*source } else { old }), &self.visibility)?;
+        if let Some(old) = self.layers.get_mut(layer) {
+            core::mem::swap(old, source);
+        }
+        Ok(())
     }
 
     /// Makes the next frame: every sample makes a step.
@@ -179,6 +185,30 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
     #[must_use]
     pub fn entry(&self, cell: u32) -> Option<(u16, u32)> {
         self.visibility.at(cell).parts()
+    }
+}
+
+/// Checks whether layers can be shown together.
+fn check<'s, 'p: 's, F: Format + 's>(
+    layers: impl Iterator<Item = &'s Source<'p, F>>,
+    visibility: &Visibility<'_>,
+) -> Result<(), SetupError> {
+    let (display, mut samples, mut is_base) = (visibility.grid(), 0, true);
+    for layer in layers {
+        let grid = layer.map.grid();
+        if is_base && *grid != display {
+            return Err(SetupError::GridsDiffer);
+        }
+        if grid.width() > display.width() {
+            return Err(SetupError::LayerTooWide { width: grid.width(), most: display.width() });
+        }
+        samples += u64::from(grid.cells());
+        is_base = false;
+    }
+    match samples {
+        0 => Err(SetupError::Size { width: 0, height: 0 }),
+        _ if samples > u64::from(MOST_SAMPLES) => Err(SetupError::TooManySamples { samples, most: MOST_SAMPLES }),
+        _ => Ok(()),
     }
 }
 

@@ -62,8 +62,7 @@ pub(crate) fn draw_one<F: Format>(
     [x, y]: [i32; 2],
     cell: u32,
 ) {
-    let grid = source.map.grid();
-    let width = grid.width();
+    let (width, grid) = (source.map.grid().width(), visibility.grid());
     let [place, right, below, last] = [cell, cell + 1, cell + width, cell + width + 1].map(|cell| source.place(cell));
     let relative = |to: [i32; 2], [cells_x, cells_y]: [i32; 2]| {
         [to[0] - place[0] + cells_x * CELL, to[1] - place[1] + cells_y * CELL]

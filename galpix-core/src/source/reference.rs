@@ -74,7 +74,7 @@ pub(crate) fn scatter<F: Format>(
 ) -> Tally {
     let format = source.map.format();
     let record = format.record();
-    let grid = *source.map.grid();
+    let (grid, display) = (*source.map.grid(), visibility.grid());
     let thresholds = step.map(|(rounding, frame)| thresholds(record, rounding, frame));
     let depth_bits = u32::from(record.depth().bits);
     let behind = threshold(edge_threshold, depth_bits) as u32 >> 1;
@@ -97,7 +97,7 @@ pub(crate) fn scatter<F: Format>(
             }
             tally.moved += 1;
             let [dx, dy] = displacement(*place);
-            let Some(target) = grid.cell(x + dx, y + dy) else {
+            let Some(target) = display.cell(x + dx, y + dy) else {
                 tally.lost += 1;
                 continue;
             };
@@ -119,7 +119,7 @@ pub(crate) fn scatter<F: Format>(
 
 /// Closes cracks. `threshold` is the edge threshold for depths of an entry.
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
-    let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
+    let grid = visibility.grid();
     let width = grid.width();
     let mut closed = Closed::default();
     each_row(&grid, visibility, |visibility, y, start| {

@@ -108,7 +108,7 @@ pub(crate) fn gather_cell<F: Format>(
     if !gather.sub_cell {
         return Some(layer.map.colour(sample));
     }
-    let width = layer.map.grid().width();
+    let display = Links { words: &[], width: visibility.grid().width() };
     let depth = |layer: &Source<'_, F>, sample: u32| {
         let field = layer.map.record().depth();
         visibility::depth(layer.map.unsigned(field, sample), field.bits.into()) as i32
@@ -117,8 +117,8 @@ pub(crate) fn gather_cell<F: Format>(
         let own = depth(layer, sample);
         let [dx, _] = side.towards();
         // Beyond the border nothing is shown.
-        let inside = x.wrapping_add_signed(dx) < width;
-        let beside = visibility.at(layer.links().beyond(start + x, side));
+        let inside = x.wrapping_add_signed(dx) < display.width;
+        let beside = visibility.at(display.beyond(start + x, side));
         let shown = layer_of(layers, beside.sample()).filter(|_| inside && beside.is_some());
         shown.is_some_and(|(layer, first, _)| depth(layer, beside.sample() - first) + gather.threshold < own)
             || depth(layer, nearer) + gather.threshold >= own
@@ -226,24 +226,23 @@ pub(crate) fn finish_cell<F: Format>(sources: &Sources<'_, '_, F>, finish: &Fini
 
 /// Says how far what a row shows has moved, see [`Sources::moved`].
 pub(crate) fn moved<F: Format>(sources: &Sources<'_, '_, F>, y: u32, moved: &mut [u32]) {
-    let Some((map, start)) = sources.base().and_then(|map| Some((map, map.grid().row(y as i32)?))) else { return };
-    let grid = map.grid();
+    let grid = sources.visibility.grid();
+    let Some(start) = grid.row(y as i32) else { return };
     let Some(moved) = moved.get_mut(..grid.width() as usize) else { return };
-    // Neighbours mostly show samples of one row.
-    let mut stored = (y, start);
+    // Neighbours mostly show samples of one row: number of its first sample, its samples, and where it is stored.
+    let (mut row, mut count, mut stored) = (0, 0, 0);
     for (to, x) in moved.iter_mut().zip(0..) {
         let entry = sources.visibility.at(start + x);
-        *to = match layer_of(sources.layers, entry.sample()).filter(|_| entry.is_some()) {
-            Some((_, first, _)) => {
-                let sample = entry.sample() - first;
-                if sample.wrapping_sub(stored.1) >= grid.width() {
-                    stored = grid.row_of(sample);
-                }
-                let (row, start) = stored;
-                displacement_word([x.wrapping_sub(sample - start) as i32, y.wrapping_sub(row) as i32])
-            }
-            None => 0,
-        };
+        if !entry.is_some() {
+            *to = 0;
+            continue;
+        }
+        if entry.sample().wrapping_sub(row) >= count {
+            let Some((layer, first, _)) = layer_of(sources.layers, entry.sample()) else { continue };
+            let (number, cell) = layer.map.grid().row_of(entry.sample() - first);
+            (row, count, stored) = (first + cell, layer.map.grid().width(), number);
+        }
+        *to = displacement_word([x.wrapping_sub(entry.sample() - row) as i32, y.wrapping_sub(stored) as i32]);
     }
 }
 

@@ -149,6 +149,7 @@ pub(crate) const fn threshold(threshold: u32, bits: u32) -> i32 {
 /// The visibility buffer of a display, in caller-provided buffers.
 #[derive(Debug)]
 pub struct Visibility<'p> {
+    grid: Grid<'p>,
     keys: &'p mut [u16],
     words: &'p mut [u32],
     /// Entries of two rows that are not shown yet, see [`Self::postpone`].
@@ -167,7 +168,7 @@ impl<'p> Visibility<'p> {
     ///
     /// *Errors:* a buffer that is too short.
     pub fn new(
-        grid: &Grid<'_>,
+        grid: &Grid<'p>,
         keys: &'p mut [u16],
         words: &'p mut [u32],
         line: &'p mut [u16],
@@ -177,15 +178,16 @@ impl<'p> Visibility<'p> {
         let (have_keys, have_words, have_line) = (keys.len(), words.len(), line.len());
         let need = Self::line_half_words(grid);
         Ok(Self {
+            grid: *grid,
             keys: keys.get_mut(..cells).ok_or(short("plane of keys", cells, have_keys))?,
             words: words.get_mut(..cells).ok_or(short("plane of entries", cells, have_words))?,
             line: line.get_mut(..need).ok_or(short("line of entries", need, have_line))?,
         })
     }
 
-    /// Returns the cells.
-    pub(crate) const fn cells(&self) -> u32 {
-        self.keys.len() as u32
+    /// Returns the grid of the display.
+    pub(crate) const fn grid(&self) -> Grid<'p> {
+        self.grid
     }
 
     /// Makes all cells show no sample. What their words hold does then not matter.

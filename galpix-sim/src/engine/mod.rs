@@ -26,6 +26,7 @@ pub use load::{LoadTally, galpixel, load};
 pub(crate) use load::{grid, margin};
 pub use origins::NO_ORIGIN;
 pub use scan_out::ScanOut;
+pub(crate) use sources::Canvas;
 
 use crate::update::Update;
 use base::Base;

@@ -61,7 +61,7 @@ impl Memory {
 }
 
 /// A picture of all cells of a map.
-struct Canvas {
+pub(crate) struct Canvas {
     /// Colour words, gathered and filled, and the finished ones.
     gathered: Vec<u32>,
     finished: Vec<u32>,
@@ -73,7 +73,8 @@ struct Canvas {
 }
 
 impl Canvas {
-    fn new(grid: &Grid<'_>, inpaint: Option<Inpaint>) -> Self {
+    /// Makes a canvas whose cells that show no sample are inpainted after they are filled, if `inpaint` says how.
+    pub(crate) fn new(grid: &Grid<'_>, inpaint: Option<Inpaint>) -> Self {
         let cells = grid.cells() as usize;
         let of = |words: usize| vec![0; if inpaint.is_some() { words } else { 0 }];
         Self {
@@ -84,6 +85,41 @@ impl Canvas {
             moved: of(if inpaint.is_some_and(|inpaint| inpaint.kind == Kind::Metamer) { cells } else { 0 }),
             inpainter: inpaint.map(|inpaint| Inpainter::new(grid, inpaint)),
         }
+    }
+
+    /// Paints what sources show; returns the colour words of all cells.
+    pub(crate) fn paint(&mut self, sources: &Sources<'_, '_, Dynamic>, gather: Gather) -> &[u32] {
+        let Some(map) = sources.base() else { return &[] };
+        let Self { gathered, finished, known, depths, moved, inpainter } = self;
+        let (grid, colour) = (*map.grid(), *map.record().colour_format());
+        let width = grid.width() as usize;
+        for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
+            sources.gather(y, gather, row);
+        }
+        if let Some(inpainter) = inpainter {
+            known.fill(0);
+            for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
+                sources.known(y, known, depths);
+            }
+            for (y, moved) in (0..).zip(moved.chunks_mut(width)) {
+                sources.moved(y, moved);
+            }
+            let threshold = [sources.depth_threshold(gather.edge_threshold), Sources::<Dynamic>::DEPTH_BITS];
+            if let Ok(picture) = Picture::new(grid.width(), grid.height(), colour, gathered, known)
+                && let Ok(mut picture) = picture.with_depths(depths)
+            {
+                inpainter.paint_picture(&mut picture, threshold, moved);
+            }
+        }
+        if !gather.sub_cell {
+            return gathered;
+        }
+        let row = |y: Option<usize>| y.and_then(|y| gathered.chunks(width).nth(y)).unwrap_or_default();
+        for (y, to) in finished.chunks_mut(width).enumerate() {
+            let around = [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))];
+            sources.finish(y as u32, gather.edge_threshold, around, to);
+        }
+        finished
     }
 }
 
@@ -125,12 +161,17 @@ impl Engine {
         let mut pins = Pins::new(update, &grid, *self.format.record().colour_format());
         let overlay = pins.overlay()?;
         let mut canvas = Canvas::new(&grid, self.inpaint);
+        let gather = Gather {
+            fill_mode: self.settings.fill_mode,
+            sub_cell: self.scan_out == ScanOut::SubCell,
+            edge_threshold: self.settings.edge_threshold,
+        };
         let mut used = vec![false; cells * (1 + hidden.len())];
         let mut origins = vec![NO_ORIGIN; cells];
         for number in 0..=frames {
             let started = ThreadTime::now();
             let tally = if number > 0 { sources.step(&self.settings) } else { sources.show(&self.settings) };
-            self.paint(&sources, &grid, &mut canvas);
+            let colours = canvas.paint(&sources, gather);
             let time = started.elapsed();
             let (tally, time) = match number {
                 0 => (Tally::default(), Duration::ZERO),
@@ -150,7 +191,7 @@ impl Engine {
                 }
             }
             let places = || places_of(&sources);
-            let shown = Shown::Sources { grid, format: &self.format, colours: &canvas.finished, places: &places };
+            let shown = Shown::Sources { grid, format: &self.format, colours, places: &places };
             visit(&Frame { number, tally, time, shown, overlay: overlay.as_ref(), origins: &origins, outline });
         }
         let base = loaded.remove(0);
@@ -179,44 +220,5 @@ impl Engine {
             source.begin(self.settings.edge_threshold);
         }
         Sources::new(layers, visibility)
-    }
-
-    /// Makes the picture of a frame.
-    fn paint(&self, sources: &Sources<'_, '_, Dynamic>, grid: &Grid<'_>, canvas: &mut Canvas) {
-        let Canvas { gathered, finished, known, depths, moved, inpainter } = canvas;
-        let width = grid.width() as usize;
-        let gather = Gather {
-            fill_mode: self.settings.fill_mode,
-            sub_cell: self.scan_out == ScanOut::SubCell,
-            edge_threshold: self.settings.edge_threshold,
-        };
-        for (y, row) in (0..).zip(gathered.chunks_mut(width)) {
-            sources.gather(y, gather, row);
-        }
-        if let Some(inpainter) = inpainter {
-            known.fill(0);
-            for (y, depths) in (0..).zip(depths.chunks_mut(width)) {
-                sources.known(y, known, depths);
-            }
-            for (y, moved) in (0..).zip(moved.chunks_mut(width)) {
-                sources.moved(y, moved);
-            }
-            let threshold = [sources.depth_threshold(self.settings.edge_threshold), Sources::<Dynamic>::DEPTH_BITS];
-            let colour = *self.format.record().colour_format();
-            if let Ok(picture) = Picture::new(grid.width(), grid.height(), colour, gathered, known)
-                && let Ok(mut picture) = picture.with_depths(depths)
-            {
-                inpainter.paint_picture(&mut picture, threshold, moved);
-            }
-        }
-        if gather.sub_cell {
-            let row = |y: Option<usize>| y.and_then(|y| gathered.chunks(width).nth(y)).unwrap_or_default();
-            for (y, to) in finished.chunks_mut(width).enumerate() {
-                let around = [row(y.checked_sub(1)), row(Some(y)), row(Some(y + 1))];
-                sources.finish(y as u32, self.settings.edge_threshold, around, to);
-            }
-        } else {
-            finished.copy_from_slice(gathered);
-        }
     }
 }

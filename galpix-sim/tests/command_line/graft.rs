@@ -49,6 +49,19 @@ fn objects_at_rates_of_their_own_are_nearer_to_the_truth() {
     assert!(refused > 0.0 && small["refused"]["cells"] == small["refused"]["total"], "{small}");
     assert_eq!(number(&small["grafted"]["renderings"]), number(&small["renderings"]) - refused);
 
+    // Over sources the places are the same, and the picture is nearer to the truth.
+    for (map, sources) in [("grafts", "grafts-sources"), ("grafts-late", "grafts-late-sources")] {
+        let (map, sources) = (strategy(&report, map), strategy(&report, sources));
+        for key in ["cells_per_frame", "renderings", "late", "missing"] {
+            assert_eq!(map[key], sources[key], "{key}");
+        }
+        assert!((number(&map["objects_px"]) - number(&sources["objects_px"])).abs() < 0.01, "{map} {sources}");
+        assert!(number(&sources["psnr_db"]) > number(&map["psnr_db"]), "{map} {sources}");
+        assert!(number(&sources["flip"]) < number(&map["flip"]), "{map} {sources}");
+    }
+    let view_sources = strategy(&report, "whole-view-sources");
+    assert!(number(&view_sources["missing"]) < number(&view["missing"]), "{view_sources}");
+
     let pinned = report["pinned"]["ways"].as_array().expect("the scene has an overlay");
     assert_eq!(pinned[0]["way"], "pinned");
     assert!(number(&pinned[0]["pinned_wrong"]) == 0.0 && number(&pinned[0]["others_smeared"]) == 0.0);

@@ -1,6 +1,7 @@
 //! Cases of stationary sources: which there are, what they say, and the core run over their inputs.
 
-use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
+use galpix_core::layers::displacement_word;
+use galpix_core::source::{Gather, Source, Sources, Visibility};
 use galpix_core::stages::threshold_for_depth;
 use galpix_core::{Bits, Demand, Dynamic, FillMode, Galpixmap, Grid, Layout, Rounding, Settings, SetupError, Tally};
 use schemars::JsonSchema;
@@ -54,6 +55,9 @@ pub struct StationarySources {
 /// One layer, before the first step and after the last one.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SourceLayer {
+    /// Its grid; left out where it has the columns and rows of the map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<LayerGrid>,
     /// Its galpixels.
     pub galpixels: Vec<u32>,
     /// The word of the displacement of each cell.
@@ -67,12 +71,21 @@ pub struct SourceLayer {
     pub displacements_after: Vec<u32>,
 }
 
+/// The grid of a layer, which has no margin.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct LayerGrid {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
 impl StationarySources {
     /// Returns the arrays of a case by their names.
     pub fn arrays(&self) -> Vec<(String, Vec<u32>)> {
         let mut arrays = Vec::new();
         for (k, layer) in self.layers.iter().enumerate() {
-            let SourceLayer { galpixels, displacements, links, galpixels_after, displacements_after } = layer;
+            let SourceLayer { grid: _, galpixels, displacements, links, galpixels_after, displacements_after } = layer;
             arrays.extend([
                 (format!("galpixels_{k}"), galpixels.clone()),
                 (format!("displacements_{k}"), displacements.clone()),
@@ -108,6 +121,33 @@ struct Plan {
     paint: Option<Paint>,
 }
 
+/// What a layer shows at first.
+#[derive(Clone, Copy)]
+struct Drawn {
+    scene: Scene,
+    /// A grid of its own, and where on the map its first cell lies.
+    own: Option<(LayerGrid, [i32; 2])>,
+}
+
+impl Drawn {
+    /// Returns the layer's size, of a map of `map_size`.
+    fn size(&self, map_size: GridSize) -> GridSize {
+        self.own.map_or(map_size, |(LayerGrid { width, height }, _)| grid(width, height, [0; 4]))
+    }
+
+    /// Returns the words of its galpixels and its displacements.
+    fn words(&self, model: &Model, map_size: GridSize, random: &mut Random) -> [Vec<u32>; 2] {
+        let [map, mut displacements] = self.scene.layer(model.record(), &self.size(map_size), random);
+        if let Some((_, place)) = self.own {
+            for word in &mut displacements {
+                let [x, y] = [*word as i16, (*word >> 16) as i16].map(i32::from);
+                *word = displacement_word([x + place[0], y + place[1]]);
+            }
+        }
+        [map, displacements]
+    }
+}
+
 /// Memory of a layer.
 struct LayerMemory {
     map: Vec<u32>,
@@ -116,6 +156,11 @@ struct LayerMemory {
 }
 
 impl LayerMemory {
+    fn new([map, displacements]: [Vec<u32>; 2]) -> Self {
+        let links = vec![0; displacements.len()];
+        Self { map, displacements, links }
+    }
+
     /// Makes a layer that is linked where its samples are stored, and then lies where it is given.
     fn layer<'m>(
         &'m mut self,
@@ -134,21 +179,16 @@ impl LayerMemory {
 
 impl Model {
     /// Makes frames of layers of stationary sources, and shows the last one.
-    fn sources(&self, plan: &Plan, scenes: &[Scene], random: &mut Random) -> Result<Content, RunError> {
+    fn sources(&self, plan: &Plan, drawn: &[Drawn], random: &mut Random) -> Result<Content, RunError> {
         let mut starts = GridMemory::new(plan.map_size);
         let grid = starts.grid()?;
         let cells = grid.cells() as usize;
-        let at_first: Vec<[Vec<u32>; 2]> =
-            scenes.iter().map(|scene| scene.layer(self.record(), &plan.map_size, random)).collect();
-        let links = vec![0; link_words(&grid)];
-        let mut memories: Vec<LayerMemory> = at_first
-            .iter()
-            .cloned()
-            .map(|[map, displacements]| LayerMemory { map, displacements, links: links.clone() })
-            .collect();
+        let at_first: Vec<[Vec<u32>; 2]> = drawn.iter().map(|drawn| drawn.words(self, plan.map_size, random)).collect();
+        let mut layer_starts: Vec<_> = drawn.iter().map(|drawn| GridMemory::new(drawn.size(plan.map_size))).collect();
+        let mut memories: Vec<_> = at_first.iter().cloned().map(LayerMemory::new).collect();
         let mut layers = Vec::new();
-        for memory in &mut memories {
-            layers.push(memory.layer(grid, self.format, plan.settings.edge_threshold)?);
+        for (memory, starts) in memories.iter_mut().zip(&mut layer_starts) {
+            layers.push(memory.layer(starts.grid()?, self.format, plan.settings.edge_threshold)?);
         }
         let (mut keys, mut words, mut line) =
             (vec![0; cells], vec![0; cells], vec![0; Visibility::line_half_words(&grid)]);
@@ -166,13 +206,15 @@ impl Model {
         };
         let shown = plan.shown(&sources, &gathered);
         let entries = || (0..grid.cells()).map(|cell| sources.entry(cell).unwrap_or((u16::MAX, u32::MAX)));
-        let layers = sources.layers().iter().zip(at_first).map(|(source, [galpixels, displacements])| SourceLayer {
+        let layers = sources.layers().iter().zip(at_first).zip(drawn);
+        let layers = layers.map(|((source, [galpixels, displacements]), drawn)| SourceLayer {
+            grid: drawn.own.map(|(grid, _)| grid),
             galpixels,
             displacements,
-            links: (0..grid.cells()).map(|cell| source.link(cell)).collect(),
+            links: (0..source.map().grid().cells()).map(|cell| source.link(cell)).collect(),
             galpixels_after: planes(source.map()),
-            displacements_after: (0..grid.cells())
-                .map(|cell| galpix_core::layers::displacement_word(source.displacement(cell)))
+            displacements_after: (0..source.map().grid().cells())
+                .map(|cell| displacement_word(source.displacement(cell)))
                 .collect(),
         });
         Ok(Content::Source(StationarySources {
@@ -326,7 +368,57 @@ pub fn cases(seed: u64, models: &[Model]) -> Result<Vec<Case>, RunError> {
         cases.push(case(seed, model, (scene, layers), 1000 + turn)?);
     }
     cases.extend(inpainted::cases(seed, &models)?);
+    let few = models.iter().filter(|model| ["paper", "velocity565", "gray8", "finest"].contains(&model.name));
+    for (turn, (objects, model)) in OBJECTS.into_iter().zip(few.cycle()).enumerate() {
+        cases.push(object_case(seed, model, objects, turn)?);
+    }
     Ok(cases)
+}
+
+const fn object(scene: Scene, [width, height]: [u32; 2], place: [i32; 2]) -> Drawn {
+    Drawn { scene, own: Some((LayerGrid { width, height }, place)) }
+}
+
+/// Objects in layers of their own grids, before a base of 40x24 cells: inside and across each border, of one column, of
+/// one row, as wide as the map and higher than it.
+const OBJECTS: [[Drawn; 2]; 10] = [
+    [object(Scene::Slide, [13, 9], [11, 8]), object(Scene::Background, [7, 5], [20, 2])],
+    [object(placed("grows", [44, 0, 0, 44], 4), [12, 12], [22, 9]), object(Scene::Slide, [40, 3], [0, 17])],
+    [object(Scene::Swell, [17, 11], [-6, -4]), object(Scene::Swell, [17, 11], [31, 18])],
+    [object(Scene::Slant, [1, 20], [19, 1]), object(Scene::Slant, [33, 1], [3, 12])],
+    [object(Scene::Drawn(Picture::Random), [16, 9], [9, 7]), object(Scene::Patches, [20, 14], [8, 6])],
+    [
+        object(rough("torn", [42, 0, 4, 40], 6), [21, 10], [9, 9]),
+        object(Scene::Drawn(Picture::Random), [9, 30], [4, -3]),
+    ],
+    [object(Scene::Hurried, [19, 8], [10, 10]), object(Scene::Limits, [24, 14], [8, 5])],
+    [object(Scene::Fence { upright: true }, [24, 14], [9, 4]), object(Scene::Steps, [31, 13], [5, 5])],
+    [object(placed("turned", [50, -44, 40, 52], 5), [15, 15], [12, 4]), object(Scene::Speckle, [11, 17], [14, 3])],
+    [object(Scene::Diagonal { falls: true }, [24, 14], [8, 5]), object(Scene::CloseBackground, [24, 14], [8, 5])],
+];
+
+fn object_case(seed: u64, model: &Model, objects: [Drawn; 2], turn: usize) -> Result<Case, RunError> {
+    let plan = Plan {
+        settings: Settings {
+            rounding: Rounding::ALL[turn % Rounding::ALL.len()],
+            fill_mode: FillMode::Extend,
+            reach: 1,
+            edge_threshold: threshold_for_depth(model.depth_bits()),
+        },
+        map_size: if turn % 3 == 2 { grid(36, 22, [3, 1, 2, 0]) } else { grid(40, 24, [0; 4]) },
+        frame: turn as u32,
+        frames: [2, 0, 3, 1][turn % 4],
+        sub_cell: turn != 6,
+        paint: None,
+    };
+    let [one, other] = objects;
+    let base = Drawn { scene: if turn % 2 == 0 { Scene::Background } else { Scene::Slant }, own: None };
+    let (one_name, other_name) = (one.scene.name(), other.scene.name());
+    let name = format!("source-{}-objects-{one_name}-{other_name}", model.name);
+    let about =
+        format!("{} steps of a base and two objects of their own size, {one_name} and {other_name}", plan.frames);
+    let content = model.sources(&plan, &[base, one, other], &mut Random::new(seed, &name))?;
+    Ok(Case { name, about, content })
 }
 
 fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) -> Result<Case, RunError> {
@@ -361,13 +453,14 @@ fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) 
     };
     // Behind the base: a background, the same once more at the same depths, or anything.
     let behind = [Scene::Background, scene, Scene::CloseBackground, Scene::Drawn(Picture::Random)];
-    let scenes: Vec<Scene> =
-        (0..layers).map(|layer| if layer == 0 { scene } else { behind[(turn + layer) % 4] }).collect();
+    let drawn: Vec<Drawn> = (0..layers)
+        .map(|layer| Drawn { scene: if layer == 0 { scene } else { behind[(turn + layer) % 4] }, own: None })
+        .collect();
     let GridSize { width, height, .. } = map_size;
     let name = format!("source-{}-{}-{layers}-{width}x{height}", model.name, scene.name());
     let about =
         format!("{} steps of {layers} layers of samples, the first of which shows {}", plan.frames, scene.name());
-    let content = model.sources(&plan, &scenes, &mut Random::new(seed, &name))?;
+    let content = model.sources(&plan, &drawn, &mut Random::new(seed, &name))?;
     Ok(Case { name, about, content })
 }
 

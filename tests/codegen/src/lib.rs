@@ -13,7 +13,7 @@ use galpix_core::layers::Layers;
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
-use galpix_core::source::{Gather, Sources};
+use galpix_core::source::{Gather, Source, Sources};
 use galpix_core::{
     Bits, Controller, Demand, Galpixmap, Inpainting, Layout, Profile, Rounding, Scratch, Settings, Static, Tally,
     scan_out, stages, sub_cell,
@@ -163,9 +163,15 @@ macro_rules! passes {
 
             /// A frame of stationary sources, and an update before it.
             #[unsafe(export_name = concat!("proof_sources_", stringify!($name)))]
-            pub fn sources(sources: &mut Sources<'_, '_, Format>, settings: &Settings, layer: usize) -> Tally {
-                if let Some(source) = sources.layer_mut(layer) {
-                    source.begin(settings.edge_threshold);
+            pub fn sources<'p>(
+                sources: &mut Sources<'p, '_, Format>,
+                spare: &mut Source<'p, Format>,
+                settings: &Settings,
+                layer: usize,
+            ) -> Tally {
+                spare.begin_at([layer as i32; 2], settings.edge_threshold);
+                spare.step(settings.rounding, sources.frame());
+                if sources.replace(layer, spare).is_ok() {
                     sources.show(settings);
                 }
                 sources.step(settings)

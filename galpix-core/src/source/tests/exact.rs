@@ -167,7 +167,7 @@ fn compare(sources: &mut Sources<'_, '_, Dynamic>, entries: &[Entry], threshold:
             visibility.challenge(cell, entry);
         }
         let closed = close(sources.layers, visibility, threshold);
-        let after: Vec<_> = (0..visibility.cells()).map(|cell| visibility.at(cell)).collect();
+        let after: Vec<_> = (0..visibility.grid().cells()).map(|cell| visibility.at(cell)).collect();
         assert_eq!((after, closed), expected, "{entries:?}, threshold {threshold}");
     }
     expected.1.holes

@@ -2,6 +2,7 @@
 
 mod equal;
 mod exact;
+mod objects;
 mod order;
 mod pictures;
 mod setup;
@@ -90,15 +91,36 @@ fn with_sources<F: Format, R>(
     garbage: &mut Random,
     work: impl FnOnce(&mut Sources<'_, '_, F>) -> R,
 ) -> R {
-    let mut starts = vec![0; Grid::rows(shape.1, shape.2)];
-    let grid = Grid::new(shape.0, shape.1, shape.2, &mut starts).unwrap();
+    with_shapes(&[shape], format, layers, garbage, work)
+}
+
+/// Lends layers as [`with_sources`]. The shapes are those of the layers in turn; layers without one have the first.
+fn with_shapes<F: Format, R>(
+    shapes: &[Shape],
+    format: F,
+    layers: &mut [[Vec<u32>; 2]],
+    garbage: &mut Random,
+    work: impl FnOnce(&mut Sources<'_, '_, F>) -> R,
+) -> R {
+    let shape_of = |layer: usize| *shapes.get(layer).unwrap_or(&shapes[0]);
+    let mut starts: Vec<_> =
+        (0..layers.len()).map(|layer| vec![0; Grid::rows(shape_of(layer).1, shape_of(layer).2)]).collect();
+    let grids: Vec<_> = (0..)
+        .zip(&mut starts)
+        .map(|(layer, starts)| {
+            let (width, height, margin) = shape_of(layer);
+            Grid::new(width, height, margin, starts).unwrap()
+        })
+        .collect();
+    let grid = grids[0];
     let cells = grid.cells() as usize;
-    let mut all_links: Vec<_> = layers.iter().map(|_| garbage.words(links::words(&grid))).collect();
+    let mut all_links: Vec<_> = grids.iter().map(|grid| garbage.words(links::words(grid))).collect();
     let mut sources: Vec<_> = layers
         .iter_mut()
         .zip(&mut all_links)
-        .map(|([map, displacements], links)| {
-            Source::new(Galpixmap::over(grid, format, map).unwrap(), displacements, links).unwrap()
+        .zip(&grids)
+        .map(|(([map, displacements], links), grid)| {
+            Source::new(Galpixmap::over(*grid, format, map).unwrap(), displacements, links).unwrap()
         })
         .collect();
     let halves = |words: &[u32]| -> Vec<_> { words.iter().map(|&word| word as u16).collect() };

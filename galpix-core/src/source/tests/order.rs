@@ -64,8 +64,9 @@ fn compare(random: &mut Random, sources: &mut Sources<'_, '_, Dynamic>, edge_thr
         firsts.push(first);
         first += cells;
     }
-    let entries =
-        |visibility: &Visibility<'_>| (0..visibility.cells()).map(|cell| visibility.at(cell)).collect::<Vec<_>>();
+    let entries = |visibility: &Visibility<'_>| {
+        (0..visibility.grid().cells()).map(|cell| visibility.at(cell)).collect::<Vec<_>>()
+    };
     let mut made = Vec::new();
     for form in [reference::scatter, fast::scatter] {
         visibility.clear();

@@ -58,7 +58,7 @@ fn run(
 
 /// The layer that each cell shows.
 fn layers_shown(sources: &Sources<'_, '_, Dynamic>) -> Vec<Option<usize>> {
-    (0..sources.visibility.cells()).map(|cell| sources.shown(cell).map(|(layer, _)| layer)).collect()
+    (0..sources.visibility.grid().cells()).map(|cell| sources.shown(cell).map(|(layer, _)| layer)).collect()
 }
 
 /// Pictures of two depths, drawn at random, with empty cells. Nothing is resampled, mixed or closed.

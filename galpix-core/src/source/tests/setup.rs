@@ -46,9 +46,25 @@ fn each_error_of_setup_says_what_to_do() {
     );
     let differ = "the two maps have different grids: make both over the same one";
     let mut layers = [source(grid, 36, 5).unwrap(), source(other, 45, 6).unwrap()];
-    assert_eq!(said(Sources::new(&mut layers, shown(grid))), differ);
     assert_eq!(said(Sources::new(&mut layers[..1], shown(other))), differ);
-    assert!(Sources::new(&mut layers[..1], shown(grid)).is_ok());
+    assert_eq!(said(Sources::new(&mut layers[1..], shown(grid))), differ);
+    assert!(Sources::new(&mut layers, shown(grid)).is_ok());
+
+    // What a base must be and a layer may be does not change when one is replaced.
+    let wide = "a layer of 10 columns is wider than the map of the display, which has 9: store only columns that can be \
+                seen";
+    let wider = || source(Grid::new(10, 1, Margin::NONE, vec![0].leak()).unwrap(), 10, 2).unwrap();
+    let small = || source(Grid::new(4, 2, Margin::NONE, vec![0; 2].leak()).unwrap(), 8, 1).unwrap();
+    let mut sources = Sources::new(&mut layers, shown(grid)).unwrap();
+    let (mut wider_one, mut small_one) = (wider(), small());
+    assert_eq!(said(sources.replace(0, &mut wider_one)), differ);
+    assert_eq!(said(sources.replace(0, &mut small_one)), differ);
+    assert_eq!(said(sources.replace(1, &mut wider_one)), wide);
+    assert!(sources.replace(2, &mut wider_one).is_ok() && *wider_one.map().grid() == *wider().map().grid());
+    assert!(sources.replace(1, &mut small_one).is_ok());
+    assert_eq!((small_one.map().grid(), sources.layers()[1].map().grid().cells()), (&other, 8));
+    let mut layers = [source(grid, 36, 5).unwrap(), wider()];
+    assert_eq!(said(Sources::new(&mut layers, shown(grid))), wide);
 }
 
 /// Two layers of a map of half the cells that can be numbered are just as many as can be.

@@ -9,6 +9,7 @@ mod columns;
 mod pinned;
 pub mod report;
 mod run;
+mod stationary;
 mod world;
 
 use serde::Serialize;
@@ -22,7 +23,7 @@ use run::{Deliver, Strategy};
 use world::World;
 
 use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
-use crate::engine::EngineError;
+use crate::engine::{EngineError, Scheme};
 use crate::picture::Picture;
 use crate::source::scene::Scene;
 
@@ -204,15 +205,16 @@ pub fn study(
 }
 
 /// How many strategies [`study`] compares.
-pub const WAYS: u64 = 6;
+pub const WAYS: u64 = 9;
 
 /// Returns the strategies, from the paper's "global update" on, all with at most its rate.
 fn strategies(world: &World, plan: &Plan) -> Result<Vec<Strategy>, GraftsError> {
     let Plan { global_every, objects_every, .. } = *plan;
-    let view = world.all_cells();
-    let (background, objects) = (view, world.cells().iter().skip(1).sum::<u32>());
+    let all_cells = world.all_cells();
+    let (background, objects) = (all_cells, world.cells().iter().skip(1).sum::<u32>());
     // In cells for a period of the one times a period of the other, so that nothing is rounded.
-    let left = (u64::from(view) * u64::from(objects_every)).checked_sub(u64::from(objects) * u64::from(global_every));
+    let left =
+        (u64::from(all_cells) * u64::from(objects_every)).checked_sub(u64::from(objects) * u64::from(global_every));
     let period = u64::from(global_every) * u64::from(objects_every);
     let background_every = match left {
         Some(left @ 1..) => (u64::from(background) * period).div_ceil(left),
@@ -222,33 +224,37 @@ fn strategies(world: &World, plan: &Plan) -> Result<Vec<Strategy>, GraftsError> 
         return Err(GraftsError::Rarely { every: background_every, frames: plan.frames });
     }
     if background_every > u64::from(plan.frames) {
-        let (objects, global) = (objects / objects_every, view / global_every);
+        let (objects, global) = (objects / objects_every, all_cells / global_every);
         return Err(GraftsError::Rate { objects_every, objects, global_every, global });
     }
     let background_every = background_every as u32;
     let all = background + objects;
-    let layered_every = (u64::from(all) * u64::from(global_every)).div_ceil(u64::from(view)) as u32;
+    let layered_every = (u64::from(all) * u64::from(global_every)).div_ceil(u64::from(all_cells)) as u32;
     let late = 4;
     let roomy = Limits { cells_each: background, cells: all, age: 2 * late };
     let grafts = Deliver::Objects { objects_every, background_every, late: 0, limits: roomy, updates: 8 };
     let graft = |late, limits, updates| Deliver::Objects { objects_every, background_every, late, limits, updates };
     // One rendering may wait, and it may not be the background.
     let small = Limits { cells_each: background / 2, cells: background / 2, age: 2 * late };
-    Ok(vec![
-        Strategy { name: "whole-view", deliver: Deliver::View { every: global_every } },
-        Strategy { name: "whole-layers", deliver: Deliver::Layers { every: layered_every } },
-        Strategy {
-            name: "all-objects",
-            deliver: Deliver::Objects {
-                objects_every: layered_every,
-                background_every: layered_every,
-                late: 0,
-                limits: roomy,
-                updates: 8,
-            },
-        },
-        Strategy { name: "grafts", deliver: grafts },
-        Strategy { name: "grafts-late", deliver: graft(late, roomy, 8) },
-        Strategy { name: "grafts-small-queue", deliver: graft(0, small, 1) },
-    ])
+    let view = Deliver::View { every: global_every };
+    let all_objects = Deliver::Objects {
+        objects_every: layered_every,
+        background_every: layered_every,
+        late: 0,
+        limits: roomy,
+        updates: 8,
+    };
+    Ok([
+        ("whole-view", Scheme::Map, view),
+        ("whole-layers", Scheme::Map, Deliver::Layers { every: layered_every }),
+        ("all-objects", Scheme::Map, all_objects),
+        ("grafts", Scheme::Map, grafts),
+        ("grafts-late", Scheme::Map, graft(late, roomy, 8)),
+        ("grafts-small-queue", Scheme::Map, graft(0, small, 1)),
+        ("whole-view-sources", Scheme::Source, view),
+        ("grafts-sources", Scheme::Source, grafts),
+        ("grafts-late-sources", Scheme::Source, graft(late, roomy, 8)),
+    ]
+    .map(|(name, scheme, deliver)| Strategy { name, scheme, deliver })
+    .into())
 }

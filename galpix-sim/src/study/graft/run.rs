@@ -1,15 +1,15 @@
-//! One strategy of delivering updates, run over a scene.
+//! One strategy of delivering updates, run over a scene: in maps that move. [`super::stationary`] does it over sources.
 
 use galpix_core::layers::{Layer, Layers, composite_words};
 use galpix_core::objects::{Limits, Object, ObjectsTally, Places, Queue};
 use galpix_core::{
-    Bits, Class, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Scratch, Settings, SetupError,
-    scan_out, stages,
+    Bits, Class, Colour, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Scratch, Settings,
+    SetupError, scan_out, stages,
 };
 
 use super::report::{GraftedReport, RefusedReport, StrategyReport};
 use super::world::{Rendering, World};
-use crate::engine::{EngineError, galpixel, margin};
+use crate::engine::{EngineError, Scheme, galpixel, margin};
 use crate::metric;
 use crate::picture::Picture;
 use crate::source::scene::{self, jet::Jet, surface::Point};
@@ -31,6 +31,7 @@ pub(super) enum Deliver {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strategy {
     pub name: &'static str,
+    pub scheme: Scheme,
     pub deliver: Deliver,
 }
 
@@ -42,21 +43,43 @@ impl Deliver {
             Self::Objects { background_every, objects_every, late, .. } => background_every.max(objects_every) + late,
         }
     }
+
+    /// Returns the frame at which the rendering of an object is exact that enters at `frame`; `None` if none does.
+    /// Renderings are spread over the period, and the first ones do not enter before the frame at which they are exact.
+    pub fn rendered(self, object: usize, objects: usize, frame: u32) -> Option<u32> {
+        match self {
+            Self::View { every } | Self::Layers { every } => frame.is_multiple_of(every).then_some(frame),
+            Self::Objects { objects_every, background_every, late, .. } => {
+                let every = if object == 0 { background_every } else { objects_every };
+                let phase = every * object as u32 / objects as u32;
+                let stamp = frame.checked_sub(late).filter(|&stamp| stamp > 0)?;
+                (stamp + phase).is_multiple_of(every).then_some(stamp)
+            }
+        }
+    }
+
+    /// Returns the frames between renderings of an object and of the background, and how late they enter.
+    pub const fn periods(self) -> [u32; 3] {
+        match self {
+            Self::View { every } | Self::Layers { every } => [every, every, 0],
+            Self::Objects { objects_every, background_every, late, .. } => [objects_every, background_every, late],
+        }
+    }
 }
 
 /// What galpixels carry as their colours.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Carry {
+pub(super) enum Carry {
     Colours,
     /// Numbers of the points that they are, so that each can be compared with its true place. Nothing is filled then.
     Points,
 }
 
 /// A run of a strategy, and sums over its frames.
-struct Run<'w> {
-    world: &'w World,
-    deliver: Deliver,
-    carry: Carry,
+pub(super) struct Run<'w> {
+    pub world: &'w World,
+    pub deliver: Deliver,
+    pub carry: Carry,
     report: StrategyReport,
     cells: u64,
     galpixels: u64,
@@ -77,13 +100,21 @@ pub(super) fn run(
     let format = Dynamic::new(bits, Layout::SHADED)?;
     let ran = |carry: Carry| {
         let mut run = Run::new(world, strategy.deliver, carry);
-        run.layered(frames, format).map(|()| run)
+        match strategy.scheme {
+            Scheme::Map => run.layered(frames, format)?,
+            Scheme::Source => run.stationary(frames, format)?,
+        }
+        Ok::<_, EngineError>(run)
     };
     let (pictures, places) = (ran(Carry::Colours)?, ran(Carry::Points)?);
     let mean = |(sum, count): (f64, u64)| if count == 0 { 0.0 } else { sum / count as f64 };
     let count = f64::from(frames.max(1));
+    let [objects_every, background_every, late] = strategy.deliver.periods();
     let report = StrategyReport {
         strategy: strategy.name,
+        objects_every,
+        background_every,
+        late,
         cells_per_frame: pictures.cells as f64 / count,
         galpixels_per_frame: pictures.galpixels as f64 / count,
         psnr_db: metric::pooled_db(&pictures.decibels),
@@ -130,7 +161,7 @@ impl<'w> Run<'w> {
             world,
             deliver,
             carry,
-            report: StrategyReport::default(),
+            report: StrategyReport { worst_psnr_db: f64::INFINITY, ..StrategyReport::default() },
             cells: 0,
             galpixels: 0,
             apart: [(0.0, 0); 2],
@@ -185,28 +216,21 @@ impl<'w> Run<'w> {
         mut queue: Option<&mut Queue<'_, Dynamic>>,
     ) {
         let world = self.world;
-        self.report.worst_psnr_db = f64::INFINITY;
         for frame in 0..=frames {
             if frame > 0 {
                 maps.step(settings);
             }
+            let objects = world.cells().len();
             match (self.deliver, queue.as_deref_mut()) {
-                (Deliver::View { every }, _) => {
-                    (self.report.objects_every, self.report.background_every) = (every, every);
-                    if frame % every == 0 {
-                        self.store(maps, 0, &world.view(frame), frame > 0);
+                (Deliver::View { .. }, _) => {
+                    if let Some(stamp) = self.deliver.rendered(0, 1, frame) {
+                        self.store(maps, 0, &world.view(stamp), frame > 0);
                     }
                 }
-                (Deliver::Objects { objects_every, background_every, late, .. }, Some(queue)) if frame > 0 => {
-                    self.report.late = late;
-                    (self.report.objects_every, self.report.background_every) = (objects_every, background_every);
-                    let objects = world.cells().len();
+                (Deliver::Objects { .. }, Some(queue)) if frame > 0 => {
                     for object in 0..objects {
-                        // Spread over the period, and the first renderings not before the frame that they are exact at.
-                        let every = if object == 0 { background_every } else { objects_every };
-                        let phase = every * object as u32 / objects as u32;
-                        if frame >= late && (frame - late + phase).is_multiple_of(every) && frame != late {
-                            self.submit(maps, queue, object, frame - late);
+                        if let Some(stamp) = self.deliver.rendered(object, objects, frame) {
+                            self.submit(maps, queue, object, stamp);
                         }
                     }
                     self.grafted(queue.apply(maps, settings.rounding, u32::MAX));
@@ -219,11 +243,9 @@ impl<'w> Run<'w> {
                         age: refusals.age,
                     };
                 }
-                (Deliver::Layers { every }, _) if frame % every != 0 => {
-                    (self.report.objects_every, self.report.background_every) = (every, every);
-                }
+                (Deliver::Layers { .. }, _) if self.deliver.rendered(0, objects, frame).is_none() => {}
                 _ => {
-                    for object in 0..world.cells().len() {
+                    for object in 0..objects {
                         self.store(maps, object, &world.rendering(object, frame), frame > 0);
                     }
                 }
@@ -231,7 +253,11 @@ impl<'w> Run<'w> {
             maps.composite();
             if frame > 0 {
                 match self.carry {
-                    Carry::Colours => self.compare_picture(maps.front(), frame),
+                    Carry::Colours => {
+                        let rows =
+                            (0..maps.front().grid().display_height()).flat_map(|y| scan_out::row(maps.front(), y));
+                        self.compare_picture(rows, maps.front().record().colour_format(), frame);
+                    }
                     Carry::Points => self.compare_places(maps.front(), frame),
                 }
             }
@@ -239,7 +265,7 @@ impl<'w> Run<'w> {
     }
 
     /// Returns a galpixel for a cell of a rendering.
-    fn galpixel(&mut self, cell: &Option<(crate::update::Sample, Point)>) -> Galpixel {
+    pub(super) fn galpixel(&mut self, cell: &Option<(crate::update::Sample, Point)>) -> Galpixel {
         let Some((sample, point)) = cell else { return Galpixel { class: Class::Empty, ..Galpixel::default() } };
         let mut galpixel = galpixel(sample);
         if self.carry == Carry::Points {
@@ -251,7 +277,7 @@ impl<'w> Run<'w> {
         galpixel
     }
 
-    fn sent(&mut self, rendering: &Rendering) {
+    pub(super) fn sent(&mut self, rendering: &Rendering) {
         self.report.renderings += 1;
         self.cells += rendering.cells.len() as u64;
         self.galpixels += rendering.cells.iter().flatten().count() as u64;
@@ -300,11 +326,11 @@ impl<'w> Run<'w> {
         }
     }
 
-    fn compare_picture(&mut self, map: &Galpixmap<'_, Dynamic>, frame: u32) {
-        let (world, colour) = (self.world, map.record().colour_format());
+    /// Compares a picture, of the colour words of the display, with the truth.
+    pub(super) fn compare_picture(&mut self, words: impl Iterator<Item = u32>, colour: &Colour, frame: u32) {
+        let world = self.world;
         let (width, height) = (world.scene.width(), world.scene.height());
-        let pixels =
-            (0..height as u32).flat_map(|y| scan_out::row(map, y)).map(|word| colour.to_rgb888(word)).collect();
+        let pixels = words.map(|word| colour.to_rgb888(word)).collect();
         let mut picture = Picture { width, height, pixels };
         if let Some(overlay) = world.scene.overlay() {
             picture = overlay.over(picture);
@@ -318,24 +344,30 @@ impl<'w> Run<'w> {
     }
 
     fn compare_places(&mut self, map: &Galpixmap<'_, Dynamic>, frame: u32) {
-        let (margin, t) = (map.grid().margin(), Jet::constant(f64::from(frame)));
+        let margin = map.grid().margin();
         for y in 0..map.grid().display_height() {
             for x in 0..map.grid().display_width() {
                 let there = map.load((x + margin.left) as i32, (y + margin.top) as i32);
-                let Some(shown) = there.filter(|shown| shown.class == Class::Galpixel) else {
-                    self.report.missing += 1.0;
-                    continue;
-                };
-                let [high, middle, low] = shown.colour;
-                let serial = u32::from_be_bytes([0, high, middle, low]) as usize;
-                let Some(&(object, point)) = self.points.get(serial) else { continue };
-                let truth = self.world.scene.surfaces()[object].place(point, t);
-                let offset = shown.offset.map(|offset| offset.to_num::<f64>());
-                let apart = [f64::from(x) + offset[0] - truth[0].value, f64::from(y) + offset[1] - truth[1].value];
-                let (sum, count) = &mut self.apart[usize::from(object == 0)];
-                *sum += apart[0].hypot(apart[1]);
-                *count += 1;
+                let shown = there.filter(|shown| shown.class == Class::Galpixel);
+                self.compare_place(shown.map(|shown| (shown, [f64::from(x), f64::from(y)])), frame);
             }
         }
+    }
+
+    /// Compares the place of what a pixel shows with its true place. Given is the galpixel, and the column and row of
+    /// the display to which its offset is added.
+    pub(super) fn compare_place(&mut self, shown: Option<(Galpixel, [f64; 2])>, frame: u32) {
+        let Some((shown, cell)) = shown else {
+            self.report.missing += 1.0;
+            return;
+        };
+        let [high, middle, low] = shown.colour;
+        let serial = u32::from_be_bytes([0, high, middle, low]) as usize;
+        let Some(&(object, point)) = self.points.get(serial) else { return };
+        let truth = self.world.scene.surfaces()[object].place(point, Jet::constant(f64::from(frame)));
+        let apart = [0, 1].map(|axis| cell[axis] + shown.offset[axis].to_num::<f64>() - truth[axis].value);
+        let (sum, count) = &mut self.apart[usize::from(object == 0)];
+        *sum += apart[0].hypot(apart[1]);
+        *count += 1;
     }
 }

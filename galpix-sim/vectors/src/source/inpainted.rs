@@ -9,7 +9,7 @@ use galpix_core::{Dynamic, FillMode, Rounding, Settings};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Plan;
+use super::{Drawn, Plan};
 use crate::case::{Case, GridSize};
 use crate::choice::grid;
 use crate::maps::{Picture, Random, size};
@@ -169,7 +169,7 @@ pub fn cases(seed: u64, models: &[&Model]) -> Result<Vec<Case>, RunError> {
         let fill = if paint.recipe.is_some() { "metamer" } else { "push-pull" };
         let name = format!("source-{}-{}-{fill}-{turn}", model.name, scene.name());
         let about = format!("{} steps of samples that show {}, inpainted by {fill}", plan.frames, scene.name());
-        let content = model.sources(&plan, &[scene], &mut Random::new(seed, &name))?;
+        let content = model.sources(&plan, &[Drawn { scene, own: None }], &mut Random::new(seed, &name))?;
         cases.push(Case { name, about, content });
     }
     Ok(cases)

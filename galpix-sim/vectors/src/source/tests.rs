@@ -19,14 +19,23 @@ struct Entry {
 }
 
 fn entries(sources: &StationarySources) -> Vec<Entry> {
-    let cells = sources.keys.len();
+    let sample = |mut number: usize| {
+        let mut layers = sources.layers.iter().enumerate();
+        let found = layers.find_map(|(layer, of)| match number.checked_sub(of.displacements.len()) {
+            Some(beyond) => {
+                number = beyond;
+                None
+            }
+            None => Some((layer, number)),
+        });
+        found.expect("a number of a sample")
+    };
     let shown = sources.keys.iter().zip(&sources.entries).enumerate().filter(|(_, (key, _))| **key != EMPTY);
     let signed = |part: u32| (part << 27) as i32 >> 27;
     shown
         .map(|(cell, (&key, &word))| {
-            let number = (word >> 10) as usize;
             let residual = [signed(word >> 5), signed(word)];
-            Entry { cell, point: key & 1 != 0, sample: (number / cells, number % cells), residual }
+            Entry { cell, point: key & 1 != 0, sample: sample((word >> 10) as usize), residual }
         })
         .collect()
 }
@@ -70,7 +79,7 @@ fn happened(name: &str, sources: &StationarySources) -> BTreeSet<String> {
         saw(["no link", "the first one ends", "the second one ends", "a link"][pair as usize], true);
     }
     let bare = |entry: &&Entry| sources.sub_cell && entry.residual == [0, 0];
-    let colours: Vec<Vec<u32>> = sources.layers.iter().map(|layer| colours(sources, &layer.galpixels_after)).collect();
+    let colours: Vec<Vec<u32>> = sources.layers.iter().map(|layer| colours(sources, layer)).collect();
     let stored = |(layer, cell): (usize, usize)| colours[layer][cell];
     let replaced = |entry: &Entry| sources.gathered[entry.cell] != stored(entry.sample);
     saw("a mixed rim replaced", entries.iter().filter(bare).any(replaced));
@@ -83,17 +92,24 @@ fn happened(name: &str, sources: &StationarySources) -> BTreeSet<String> {
         saw("a hole with the colour that was there", sources.fill_mode == "hold" && colour == stored((0, cell)));
     }
     saw("equal depths in two layers", equal_depths(sources));
+    for entry in entries.iter().filter(|entry| sources.layers[entry.sample.0].grid.is_some()) {
+        saw("a sample of a layer with a grid of its own", true);
+        saw("a quad of one", !entry.point);
+        saw("a crack of one closed", crack(entry).is_some());
+        saw("a colour between samples of one", sources.sub_cell && replaced(entry));
+    }
     saw("no steps", sources.frames == 0);
     saw(&format!("{} layers", sources.layers.len()), true);
     happened
 }
 
-/// Returns the colours of a map's cells.
-fn colours(sources: &StationarySources, map: &[u32]) -> Vec<u32> {
+/// Returns the colours of a layer's cells after the steps.
+fn colours(sources: &StationarySources, layer: &SourceLayer) -> Vec<u32> {
+    let map = &layer.galpixels_after;
     let record = serde_json::to_value(&sources.setting.record).expect("a record");
     let field = record["fields"].as_array().expect("fields").iter().find(|field| field["name"] == "colour");
     let of = |key: &str| field.expect("a colour")[key].as_u64().expect("a number");
-    let (word, cells) = (of("word") as usize, sources.keys.len());
+    let (word, cells) = (of("word") as usize, layer.displacements.len());
     let low = |cell| u64::from(map.get((word + 1) * cells + cell).copied().unwrap_or_default());
     let both = |cell: usize| u64::from(map[word * cells + cell]) << 32 | low(cell);
     (0..cells).map(|cell| (both(cell) >> (32 + of("shift") - of("spill")) & ((1 << of("bits")) - 1)) as u32).collect()
@@ -152,6 +168,10 @@ fn every_rule_has_something_to_do() {
         "1 layers",
         "2 layers",
         "3 layers",
+        "a sample of a layer with a grid of its own",
+        "a quad of one",
+        "a crack of one closed",
+        "a colour between samples of one",
     ] {
         assert!(seen.contains_key(what), "in no case there is {what}: {seen:#?}");
     }

@@ -9,7 +9,7 @@ use crate::source::visibility::{EMPTY, Kind, Visibility};
 
 /// Closes cracks, see [`crate::source::cracks`].
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
-    let Some(grid) = sources.first().map(|source| *source.map.grid()) else { return Closed::default() };
+    let grid = visibility.grid();
     let (width, mut closed) = (grid.width() as usize, Closed::default());
     // Keys of depths that differ by more than the threshold differ by more than twice as much.
     let near = (threshold << 1).min(EMPTY.into()) as u16;

@@ -26,10 +26,10 @@ pub(crate) fn gather_row<F: Format>(
     gather: &GatherRow,
     colours: &mut [u32],
 ) {
-    let Some(map) = layers.first().map(|layer| &layer.map).filter(|_| gather.sub_cell) else {
+    if !gather.sub_cell {
         return row::gather_row(layers, visibility, start, gather, colours);
-    };
-    let mut pass = Pass { layers, width: map.grid().width(), samples: [[[0; RUN + 1]; 3]; 2] };
+    }
+    let mut pass = Pass { layers, samples: [[[0; RUN + 1]; 3]; 2] };
     let count = colours.len();
     let mut x = 0;
     while x < count {
@@ -59,13 +59,17 @@ struct Cells<const N: usize> {
     quads: [u32; N],
     /// The low halves of the words, with the residuals.
     residuals: [u16; N],
+    /// The columns of the layer whose samples they are taken for. Of a run that proves to lie inside of that layer all
+    /// are.
+    width: u32,
 }
 
 impl<const N: usize> Cells<N> {
-    /// Takes the words of their entries. `width` is that of the grid.
+    /// Takes the words of their entries, as those of samples of a layer.
     #[inline(always)]
-    fn new(words: &[u32; N], width: u32) -> Self {
-        let mut cells = Self { quads: [0; N], residuals: [0; N] };
+    fn new<F: Format>(words: &[u32; N], layer: &Source<'_, F>) -> Self {
+        let width = layer.map.grid().width();
+        let mut cells = Self { quads: [0; N], residuals: [0; N], width };
         for (quad, &word) in cells.quads.iter_mut().zip(words) {
             // A negative residual is that of the quad on the other side.
             let negative = |bit: u32| (word >> bit & 1).wrapping_neg();
@@ -108,8 +112,6 @@ impl<const N: usize> Cells<N> {
 /// A pass over the cells of a row.
 struct Pass<'r, 'p, F> {
     layers: &'r [Source<'p, F>],
-    /// Columns of the grid.
-    width: u32,
     /// Samples of two rows that lie one below the other, by row, channel and column.
     samples: [[[u16; RUN + 1]; 3]; 2],
 }
@@ -123,9 +125,10 @@ impl<F: Format> Pass<'_, '_, F> {
         else {
             return false;
         };
-        let cells = Cells::new(words, self.width);
+        let Some((layer, first, _)) = layer_of(self.layers, words[0] >> (2 * RESIDUAL_BITS)) else { return false };
+        let cells = Cells::new(words, layer);
         let empty = keys.iter().fold(0, |any, &key| any | u16::from(key == EMPTY));
-        empty == 0 && cells.are_neighbours() && self.mix(&cells, words[0], 0..RUN, colours)
+        empty == 0 && cells.are_neighbours() && self.mix(&cells, (layer, first), 0..RUN, colours)
     }
 
     /// Gathers a part of a run; returns a bit for each cell that must be gathered alone.
@@ -136,19 +139,24 @@ impl<F: Format> Pass<'_, '_, F> {
         else {
             return u32::MAX >> (u32::BITS as usize - keys.len());
         };
-        let cells = Cells::new(words, self.width);
+        let Some(base) = self.layers.first() else { return 0 };
+        let mut cells = Cells::new(words, base);
         let (mut alone, mut lane) = (0, 0);
         while let (Some(&key), Some(&word)) = (keys.get(lane), words.get(lane)) {
-            if key == EMPTY {
+            let Some((layer, first, _)) = layer_of(self.layers, word >> (2 * RESIDUAL_BITS)).filter(|_| key != EMPTY)
+            else {
                 lane += 1;
                 continue;
+            };
+            if layer.map.grid().width() != cells.width {
+                cells = Cells::new(words, layer);
             }
             let next = |&end: &usize| match (cells.quads.get(end - 1), cells.quads.get(end), keys.get(end)) {
                 (Some(before), Some(quad), Some(&key)) => quad.wrapping_sub(*before) == 1 && key != EMPTY,
                 _ => false,
             };
             let end = lane + 1 + (lane + 1..PART).take_while(next).count();
-            if !self.mix(&cells, word, lane..end, colours) {
+            if !self.mix(&cells, (layer, first), lane..end, colours) {
                 alone |= (1 << end) - (1 << lane);
             }
             lane = end;
@@ -156,17 +164,16 @@ impl<F: Format> Pass<'_, '_, F> {
         alone
     }
 
-    /// Gathers the cells of some lanes, which lie in neighbouring quads; returns whether these are quads. `word` is the
-    /// first lane's.
+    /// Gathers the cells of some lanes, which lie in neighbouring quads of a layer; returns whether these are quads.
+    /// `first` is the number of the layer's first sample.
     #[inline(never)]
     fn mix<const N: usize>(
         &mut self,
         cells: &Cells<N>,
-        word: u32,
+        (layer, first): (&Source<'_, F>, u32),
         lanes: Range<usize>,
         colours: &mut [u32; N],
     ) -> bool {
-        let Some((layer, first, _)) = layer_of(self.layers, word >> (2 * RESIDUAL_BITS)) else { return false };
         let quad = cells.quads.get(lanes.start).copied().unwrap_or_default().wrapping_sub(first);
         if !layer.links().quads_inside(quad, lanes.len() as u32) {
             return false;
@@ -222,7 +229,7 @@ impl<F: Format> Pass<'_, '_, F> {
         let field = layer.map.record().colour();
         let ((upper, lower), extract) = (field.words(), field.extract());
         let channels = layer.map.record().colour_format().three_channels();
-        for (samples, from) in self.samples.iter_mut().zip([quad, quad.wrapping_add(self.width)]) {
+        for (samples, from) in self.samples.iter_mut().zip([quad, quad.wrapping_add(layer.map.grid().width())]) {
             let plane = |word: usize| layer.map.planes().get(word)?.get(from as usize..)?.split_first_chunk::<N>();
             let (Some((upper, [upper_last, ..])), Some((lower, [lower_last, ..]))) = (plane(upper), plane(lower))
             else {

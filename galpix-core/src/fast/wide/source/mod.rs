@@ -6,6 +6,7 @@ pub(crate) mod finish;
 pub(crate) mod gather;
 pub(crate) mod links;
 pub(crate) mod scatter;
+pub(crate) mod step;
 
 /// Cells that are looked at at a time.
 const RUN: usize = 32;

@@ -1,32 +1,26 @@
 //! Steps samples in place and shows them, chunk by chunk.
 //!
-//! Neighbours mostly move alike: a run of samples with equal displacements is shown as a whole. A chunk that a step
-//! does not change is not written back. The places of two rows are kept, so that of all quads only the stretched ones
-//! are looked at.
+//! Neighbours mostly move alike: a run of samples with equal displacements is shown as a whole. The places of two rows
+//! are kept, so that of all quads only the stretched ones are looked at.
 
 use core::ops::Range;
 
+use super::step::{Samples, Steps};
 use crate::fast::wide::planes::unpack;
-use crate::fast::wide::{CHUNK, Chunk, is_unchanged, lanes_of, motion_bits, run_length, step_chunk};
+use crate::fast::wide::{CHUNK, Chunk, run_length};
 use crate::format::Format;
-use crate::format::record::{MAX_WORDS, Words};
 use crate::format::rounding::Rounding;
-use crate::frame::resolve;
-use crate::frame::step::{advance, parts, thresholds};
+use crate::frame::step::parts;
 use crate::frame::tally::Tally;
 use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
-use crate::source::layer::{CORNER_PARTS, moved};
+use crate::source::layer::CORNER_PARTS;
 use crate::source::quads::{self, STRETCHED};
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
 
 /// What a chunk shows. The memory is reused for all chunks.
 struct Shown {
-    /// All ones for galpixels, else 0.
-    there: [u32; CHUNK],
-    /// Displacements after the step.
-    displacements: [u32; CHUNK],
     /// Fields of the chunk, one after the other.
     field: [i32; CHUNK],
     /// Places in x or in y in [`CORNER_PARTS`] parts of a cell, modulo 2^16.
@@ -39,15 +33,15 @@ struct Shown {
 
 /// A pass over the samples of a layer.
 struct Pass<'s, 'p, 'v, 'w, F> {
-    source: &'s mut Source<'p, F>,
+    steps: Steps<'s, 'p, F>,
     visibility: &'v mut Visibility<'w>,
+    /// The grid of the samples.
     grid: Grid<'p>,
+    display: Grid<'w>,
     /// The number of the first sample.
     first: u32,
     /// How far points lie behind quads.
     behind: u16,
-    thresholds: Option<[i32; 3]>,
-    motion_bits: Words,
     tally: Tally,
 }
 
@@ -59,203 +53,51 @@ pub(crate) fn scatter<F: Format>(
     edge_threshold: u32,
     step: Option<(Rounding, u32)>,
 ) -> Tally {
-    let format = source.map.format();
-    let record = format.record();
     let grid = *source.map.grid();
     let mut pass = Pass {
         grid,
+        display: visibility.grid(),
         first,
-        behind: (threshold(edge_threshold, record.depth().bits.into()) >> 1) as u16,
-        thresholds: step.map(|(rounding, frame)| thresholds(record, rounding, frame)),
-        motion_bits: motion_bits(record),
+        behind: (threshold(edge_threshold, source.map.record().depth().bits.into()) >> 1) as u16,
         tally: Tally::default(),
-        source,
+        steps: Steps::new(source, step),
         visibility,
     };
-    let mut chunk = Chunk::new();
-    let mut tail = [[0; CHUNK]; MAX_WORDS];
-    let mut shown = Shown {
-        there: [0; CHUNK],
-        displacements: [0; CHUNK],
-        field: [0; CHUNK],
-        places: [0; CHUNK],
-        keys: [0; CHUNK],
-        words: [0; CHUNK],
-        boundary: [0; CHUNK],
-    };
+    let (mut chunk, mut samples) = (Chunk::new(), Samples::new());
+    let mut shown =
+        Shown { field: [0; CHUNK], places: [0; CHUNK], keys: [0; CHUNK], words: [0; CHUNK], boundary: [0; CHUNK] };
     for (y, &start) in grid.starts().iter().enumerate() {
         let mut x = 0;
         while x < grid.width() {
             let cells = (grid.width() - x).min(CHUNK as u32);
             (chunk.x, chunk.y, chunk.source, chunk.cells) = (x as i32, y as i32, start + x, cells as usize);
-            pass.chunk(&mut chunk, &mut shown, &mut tail);
+            pass.chunk(&mut chunk, &mut samples, &mut shown);
             x += cells;
         }
         if let Some(above) = y.checked_sub(1) {
             pass.quads(above);
         }
     }
-    pass.tally
+    Tally { saturated: pass.steps.saturated, ..pass.tally }
 }
 
 impl<F: Format> Pass<'_, '_, '_, '_, F> {
     /// Steps and shows the samples of a chunk.
     #[inline(always)]
-    fn chunk(&mut self, chunk: &mut Chunk, shown: &mut Shown, tail: &mut [[u32; CHUNK]; MAX_WORDS]) {
-        if self.source.map.all_empty(chunk.range()) {
-            return;
-        }
-        let stepped = self.step(chunk, tail);
-        let depth_bits = self.source.map.record().depth().bits;
-        let classes = chunk.keys.iter().fold(0, |any, key| any | key);
-        let mixed = chunk.cells < CHUNK || classes >> depth_bits != 0;
+    fn chunk(&mut self, chunk: &mut Chunk, samples: &mut Samples, shown: &mut Shown) {
+        let Some(mixed) = self.steps.chunk(chunk, samples) else { return };
         if mixed {
-            for (lane, (there, key)) in shown.there.iter_mut().zip(&chunk.keys).enumerate() {
-                *there = if key >> depth_bits == 0 && lane < chunk.cells { u32::MAX } else { 0 };
-            }
+            self.entries::<true>(chunk, samples, shown);
         } else {
-            shown.there = [u32::MAX; CHUNK];
+            self.entries::<false>(chunk, samples, shown);
         }
-        if let Some(overflowed) = stepped {
-            if overflowed != 0 {
-                self.step_clamped(chunk, shown);
-            }
-            self.write_back(chunk, shown, mixed);
-        }
-        self.displace(chunk, shown, stepped.is_some());
-        if mixed {
-            self.entries::<true>(chunk, shown);
-        } else {
-            self.entries::<false>(chunk, shown);
-        }
-        self.show_runs(chunk, shown);
-    }
-
-    /// Steps a chunk, whose words and keys are then known. Returns `None` if a step changes nothing, else a number that
-    /// is not 0 if a field of any sample overflowed.
-    #[inline(always)]
-    fn step(&mut self, chunk: &mut Chunk, tail: &mut [[u32; CHUNK]; MAX_WORDS]) -> Option<i32> {
-        let format = self.source.map.format();
-        let record = format.record();
-        let mut sources = [&[0; CHUNK]; MAX_WORDS];
-        for ((lanes, plane), tail) in sources.iter_mut().zip(self.source.map.planes()).zip(tail).take(record.words()) {
-            *lanes = lanes_of(plane, chunk.source, chunk.cells, tail);
-        }
-        if let Some(thresholds) = &self.thresholds
-            && !is_unchanged(record, &sources, &self.motion_bits, chunk.cells)
-        {
-            return Some(step_chunk::<F>(record, thresholds, &sources, chunk));
-        }
-        chunk.set_unchanged(record, &sources);
-        None
-    }
-
-    /// Writes the words of a chunk, if it is `mixed` only those of galpixels.
-    #[inline(always)]
-    fn write_back(&mut self, chunk: &Chunk, shown: &Shown, mixed: bool) {
-        let words = self.source.map.record().words();
-        for (plane, lanes) in self.source.map.planes_mut().iter_mut().zip(&chunk.words).take(words) {
-            let Some(plane) = plane.get_mut(chunk.range()) else { return };
-            match plane.first_chunk_mut::<CHUNK>() {
-                Some(plane) if !mixed => *plane = *lanes,
-                _ => {
-                    for ((to, &lane), &there) in plane.iter_mut().zip(lanes).zip(&shown.there) {
-                        *to = *to & !there | lane & there;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Adds the cells that a chunk moved to its displacements.
-    #[inline(always)]
-    fn displace(&mut self, chunk: &Chunk, shown: &mut Shown, stepped: bool) {
-        /// The signs of the two numbers of a word.
-        const SIGNS: u32 = 0x8000_8000;
-        let Some(displacements) = self.source.displacements.get_mut(chunk.range()) else { return };
-        match displacements.first_chunk::<CHUNK>() {
-            Some(chunk) => shown.displacements = *chunk,
-            None => {
-                for (to, &word) in shown.displacements.iter_mut().zip(&*displacements) {
-                    *to = word;
-                }
-            }
-        }
-        if !stepped {
-            return;
-        }
-        let mut overflowed = 0;
-        for lane in 0..CHUNK {
-            // Both numbers of a word at once: the sum of all bits but the signs, and then the signs.
-            let word = shown.displacements[lane];
-            let step = (chunk.dx[lane] as u32 & 0xffff | (chunk.dy[lane] as u32) << 16) & shown.there[lane];
-            let sum = (word & !SIGNS).wrapping_add(step & !SIGNS) ^ (word ^ step) & SIGNS;
-            overflowed |= (word ^ sum) & !(word ^ step) & SIGNS;
-            // A step of more cells than a number holds.
-            let far = chunk.dx[lane].wrapping_add(1 << 15) | chunk.dy[lane].wrapping_add(1 << 15);
-            overflowed |= far as u32 >> 16 & shown.there[lane];
-            shown.displacements[lane] = sum;
-        }
-        if overflowed != 0 {
-            self.displace_clamped(chunk, shown);
-        }
-        let Some(displacements) = self.source.displacements.get_mut(chunk.range()) else { return };
-        match displacements.first_chunk_mut::<CHUNK>() {
-            Some(chunk) => *chunk = shown.displacements,
-            None => {
-                for (to, &word) in displacements.iter_mut().zip(&shown.displacements) {
-                    *to = word;
-                }
-            }
-        }
-    }
-
-    /// Repeats [`Self::displace`] with clamps. Rare.
-    #[cold]
-    #[inline(never)]
-    fn displace_clamped(&mut self, chunk: &Chunk, shown: &mut Shown) {
-        let before = self.source.displacements.get(chunk.range()).unwrap_or_default();
-        let lanes = before.iter().zip(&mut shown.displacements).zip(&shown.there).zip(chunk.dx.iter().zip(&chunk.dy));
-        for (((&before, after), &there), (dx, dy)) in lanes {
-            if there == 0 {
-                continue;
-            }
-            let [x, y] = displacement(before);
-            let clamped;
-            (*after, clamped) = moved([x + dx, y + dy]);
-            self.tally.saturated += clamped;
-        }
-    }
-
-    /// Repeats the steps of a chunk with clamps. The displacements are already correct. Rare.
-    #[cold]
-    #[inline(never)]
-    fn step_clamped(&mut self, chunk: &mut Chunk, shown: &Shown) {
-        let format = self.source.map.format();
-        let record = format.record();
-        let Some(thresholds) = &self.thresholds else { return };
-        for (lane, cell) in (chunk.source..).take(chunk.cells).enumerate() {
-            let Some(mut words) = self.source.map.words_at(cell) else { return };
-            if shown.there.get(lane).is_none_or(|&there| there == 0) {
-                continue;
-            }
-            let step = advance::<true>(record, thresholds, &mut words);
-            self.tally.saturated += step.saturated();
-            if let Some(key) = chunk.keys.get_mut(lane) {
-                *key = resolve::key(record, &words);
-            }
-            for (word, lanes) in words.iter().zip(&mut chunk.words) {
-                if let Some(to) = lanes.get_mut(lane) {
-                    *to = *word;
-                }
-            }
-        }
+        self.show_runs(chunk, samples, shown);
     }
 
     /// Makes the entries of a chunk, and keeps the places of its samples.
     #[inline(always)]
-    fn entries<const MIXED: bool>(&mut self, chunk: &Chunk, shown: &mut Shown) {
-        let format = self.source.map.format();
+    fn entries<const MIXED: bool>(&mut self, chunk: &Chunk, samples: &Samples, shown: &mut Shown) {
+        let format = self.steps.source.map.format();
         let record = format.record();
         let depth_bits = u32::from(record.depth().bits);
         let deepest = (1 << depth_bits) - 1;
@@ -270,7 +112,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
             *key = depth << 1 | Kind::Point as u16;
         }
         if MIXED {
-            for (key, there) in shown.keys.iter_mut().zip(&shown.there) {
+            for (key, there) in shown.keys.iter_mut().zip(&samples.there) {
                 *key |= !there as u16;
             }
         }
@@ -290,7 +132,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                 } else {
                     shown.words[lane] | residual
                 };
-                let cells = displacement(shown.displacements[lane])[component];
+                let cells = displacement(samples.displacements[lane])[component];
                 shown.places[lane] = ((cells << CORNER_PARTS) + parts::<CORNER_PARTS>(offset, frac)) as u16;
             }
             let at = half + component * width + x;
@@ -303,18 +145,19 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
 
     /// Shows a chunk run by run.
     #[inline(always)]
-    fn show_runs(&mut self, chunk: &Chunk, shown: &mut Shown) {
+    fn show_runs(&mut self, chunk: &Chunk, samples: &Samples, shown: &mut Shown) {
         let cells = chunk.cells;
-        let (first, first_there) = (shown.displacements[0], shown.there[0]);
+        let Samples { there, displacements, .. } = samples;
+        let (first, first_there) = (displacements[0], there[0]);
         let mut apart = 0;
         for lane in 0..CHUNK {
-            apart |= shown.displacements[lane] ^ first | shown.there[lane] ^ first_there;
+            apart |= displacements[lane] ^ first | there[lane] ^ first_there;
         }
         if apart == 0 && cells == CHUNK {
-            self.show_run(chunk, shown, 0..cells);
+            self.show_run(chunk, samples, shown, 0..cells);
             return;
         }
-        let Shown { displacements, there, boundary, .. } = &mut *shown;
+        let boundary = &mut shown.boundary;
         for lane in 1..CHUNK {
             boundary[lane] =
                 (displacements[lane] ^ displacements[lane - 1]) as i32 | (there[lane] ^ there[lane - 1]) as i32;
@@ -322,15 +165,16 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         let mut lane = 0;
         while lane < cells {
             let end = lane + 1 + run_length(shown.boundary.get(lane + 1..cells).unwrap_or_default());
-            self.show_run(chunk, shown, lane..end);
+            self.show_run(chunk, samples, shown, lane..end);
             lane = end;
         }
     }
 
     /// Shows a run of samples with equal displacements.
     #[inline(always)]
-    fn show_run(&mut self, chunk: &Chunk, shown: &Shown, lanes: Range<usize>) {
-        let (Some(&there), Some(&word)) = (shown.there.get(lanes.start), shown.displacements.get(lanes.start)) else {
+    fn show_run(&mut self, chunk: &Chunk, samples: &Samples, shown: &Shown, lanes: Range<usize>) {
+        let (Some(&there), Some(&word)) = (samples.there.get(lanes.start), samples.displacements.get(lanes.start))
+        else {
             return;
         };
         if there == 0 {
@@ -340,13 +184,13 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
         self.tally.moved += count as u32;
         let [dx, dy] = displacement(word);
         let to_x = chunk.x + lanes.start as i32 + dx;
-        let Some(row) = self.grid.row(chunk.y + dy) else {
+        let Some(row) = self.display.row(chunk.y + dy) else {
             self.tally.lost += count as u32;
             return;
         };
         // Lanes that leave the map at the left and at the right are cut off.
         let before = (-to_x).max(0) as usize;
-        let beyond = (to_x + count as i32 - self.grid.width() as i32).max(0) as usize;
+        let beyond = (to_x + count as i32 - self.display.width() as i32).max(0) as usize;
         if before + beyond >= count {
             self.tally.lost += count as u32;
             return;
@@ -409,9 +253,9 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
             if any != 0 {
                 for (lane, _) in flags.iter().enumerate().take(run).filter(|(_, flag)| **flag != 0) {
                     let cell = start + (x + lane) as u32;
-                    if self.source.links().quad(cell) {
+                    if self.steps.source.links().quad(cell) {
                         let place = [(x + lane) as i32, y as i32];
-                        quads::draw_one(self.source, self.visibility, self.first, place, cell);
+                        quads::draw_one(self.steps.source, self.visibility, self.first, place, cell);
                     }
                 }
             }
