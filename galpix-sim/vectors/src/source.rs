@@ -412,7 +412,7 @@ fn object_case(seed: u64, model: &Model, objects: [Drawn; 2], turn: usize) -> Re
         paint: None,
     };
     let [one, other] = objects;
-    let base = Drawn { scene: if turn % 2 == 0 { Scene::Background } else { Scene::Slant }, own: None };
+    let base = Drawn { scene: if turn.is_multiple_of(2) { Scene::Background } else { Scene::Slant }, own: None };
     let (one_name, other_name) = (one.scene.name(), other.scene.name());
     let name = format!("source-{}-objects-{one_name}-{other_name}", model.name);
     let about =

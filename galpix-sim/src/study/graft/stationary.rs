@@ -63,14 +63,14 @@ impl Run<'_> {
         let gather = Gather { fill_mode, sub_cell, edge_threshold: settings.edge_threshold };
         for frame in 0..=frames {
             let mut delivered = Vec::new();
-            for object in 0..objects {
+            for (object, layer) in layers.iter_mut().enumerate() {
                 let stamp = if frame == 0 { Some(0) } else { self.deliver.rendered(object, objects, frame) };
                 if let Some(stamp) = stamp {
                     let rendering = if objects == 1 { world.view(stamp) } else { world.rendering(object, stamp) };
                     let shape =
                         if object == 0 { display } else { (rendering.size[0], rendering.size[1], Margin::NONE) };
-                    layers[object] = LayerMemory::new(shape, format)?;
-                    let mut source = layers[object].lay(format)?;
+                    *layer = LayerMemory::new(shape, format)?;
+                    let mut source = layer.lay(format)?;
                     self.write(&mut source, &rendering, object == 0, settings.edge_threshold);
                     for missed in stamp..frame {
                         source.step(settings.rounding, missed);
