@@ -24,7 +24,7 @@ use crate::layers::{self, Layers};
 use crate::map::Galpixmap;
 use crate::source::cracks::Closed;
 use crate::source::row::{self, Finish, GatherRow};
-use crate::source::{self, Gather, Source, Sources, Visibility};
+use crate::source::{self, Budget, Gather, Source, Sources, Visibility};
 use rolling::Rolling;
 
 /// Whether loops over neighbours become vector code on the target. Selects the form of a pass; results do not depend on
@@ -115,6 +115,16 @@ pub(crate) fn close_cracks<F: Format>(
     #[cfg(feature = "check")]
     check::close_cracks(sources, visibility, threshold);
     wide::source::cracks::close(sources, visibility, threshold)
+}
+
+/// Closes cracks in constant time, at most so many of each row; returns also how many are left out.
+pub(crate) fn close_cracks_constant_time<F: Format>(
+    sources: &[Source<'_, F>],
+    visibility: &mut Visibility<'_>,
+    threshold: i32,
+    most: usize,
+) -> (Closed, u32) {
+    wide::source::cracks::close_constant_time(sources, visibility, threshold, most)
 }
 
 /// Gathers the colours of the cells of a row that show a sample, see [`row::gather_row`].
@@ -209,6 +219,12 @@ passes! {
         edge_threshold: u32,
         step: Option<(Rounding, u32)>,
     ) -> Tally = source::draw;
+    fn sources_draw_constant_time(
+        layers: &mut [Source<'_, Self>],
+        visibility: &mut Visibility<'_>,
+        settings: &Settings,
+        limits: (u32, &Budget),
+    ) -> (Tally, u32) = source::constant_time::draw;
     fn sources_gather(
         sources: &Sources<'_, '_, Self>,
         y: u32,

@@ -11,7 +11,7 @@ use super::layer::Source;
 use super::links::Links;
 use super::visibility::{Entry, PARTS, Visibility};
 use crate::format::Format;
-use crate::map::grid::Grid;
+use crate::frame::reference::{choose, opaque};
 
 /// Samples that are farther from each other in x or y are not looked at as neighbours.
 const SPAN: i32 = 2;
@@ -31,115 +31,163 @@ pub(crate) struct Closed {
 }
 
 /// Decides row by row what takes the place of entries: `decide` postpones them and returns how many. They are shown
-/// when the next row is decided, which the old ones have served as neighbours.
+/// when the next row is decided, which the old ones have served as neighbours. With `most` no row has more, and the
+/// instructions depend on it alone.
 #[inline(always)]
 pub(crate) fn each_row(
-    grid: &Grid<'_>,
     visibility: &mut Visibility<'_>,
+    most: Option<usize>,
     mut decide: impl FnMut(&mut Visibility<'_>, usize, u32) -> usize,
 ) {
+    let settle = |visibility: &mut Visibility<'_>, (y, start, count): (usize, u32, usize)| match most {
+        Some(most) => visibility.settle_of(y, start, count, most),
+        None => visibility.settle(y, start, count),
+    };
     let mut before = None;
-    for (y, &start) in grid.starts().iter().enumerate() {
+    for (y, &start) in visibility.grid().starts().iter().enumerate() {
         let count = decide(visibility, y, start);
-        if let Some((y, start, count)) = before.replace((y, start, count)) {
-            visibility.settle(y, start, count);
+        if let Some(before) = before.replace((y, start, count)) {
+            settle(visibility, before);
         }
     }
-    if let Some((y, start, count)) = before {
-        visibility.settle(y, start, count);
+    if let Some(before) = before {
+        settle(visibility, before);
     }
 }
 
-/// Returns what closes a cell; `None` if nothing does.
+/// Returns all ones and what closes a cell; 0 and anything if nothing does. In constant time all directions are looked
+/// at.
 #[inline(always)]
-pub(crate) fn best<F: Format>(
+pub(crate) fn best<F: Format, const CONSTANT_TIME: bool>(
     sources: &[Source<'_, F>],
     visibility: &Visibility<'_>,
     [x, y]: [i32; 2],
     threshold: i32,
-) -> Option<Entry> {
-    let grid = visibility.grid();
-    let at = |dx: i32, dy: i32| grid.cell(x + dx, y + dy).map_or(Entry::NONE, |cell| visibility.at(cell));
+) -> (u32, Entry) {
+    let at = |dx: i32, dy: i32| visibility.at_place::<CONSTANT_TIME>([x + dx, y + dy]);
     let own = at(0, 0);
     // What closes the cell must be nearer than this.
-    let limit = if own.is_some() { own.depth() - threshold } else { i32::MAX };
-    let mut best = None;
-    for (dx, dy) in [(1, 0), (0, 1)] {
-        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit, best);
-    }
-    for (dx, dy) in [(1, 1), (1, -1)] {
-        if best.is_some() {
+    let limit = choose(mask::<CONSTANT_TIME>(own.is_some()), (own.depth() - threshold) as u32, i32::MAX as u32) as i32;
+    let closing =
+        |[dx, dy]: [i32; 2]| closing::<F, CONSTANT_TIME>(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit);
+    let (across, down) = (closing([1, 0]), closing([0, 1]));
+    let mut best = down.or(mask::<CONSTANT_TIME>(across.distance > down.distance), across);
+    for diagonal in [[1, 1], [1, -1]] {
+        if !CONSTANT_TIME && best.closes() {
             break;
         }
-        best = closing(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit, best);
+        best = best.or(mask::<CONSTANT_TIME>(best.closes()), closing(diagonal));
     }
-    best.map(|(_, entry)| entry)
+    (mask::<CONSTANT_TIME>(best.closes()), best.entry)
+}
+
+/// Returns all ones if a condition holds, else 0.
+#[inline(always)]
+fn mask<const CONSTANT_TIME: bool>(condition: bool) -> u32 {
+    let mask = u32::from(condition).wrapping_neg();
+    if CONSTANT_TIME { opaque(mask) } else { mask }
 }
 
 /// An entry that closes a crack, and how far its sample is from the cell.
-type Best = Option<(i32, Entry)>;
+#[derive(Clone, Copy)]
+struct Closing {
+    distance: i32,
+    entry: Entry,
+}
 
-/// Returns the nearer one of two opposite neighbours, if they close the cell between them and it is nearer than `best`.
+impl Closing {
+    /// Nothing closes the cell.
+    const NONE: Self = Self { distance: i32::MAX, entry: Entry::NONE };
+
+    #[inline(always)]
+    const fn closes(&self) -> bool {
+        self.distance != i32::MAX
+    }
+
+    /// Returns `self` where the mask has ones, else `other`.
+    #[inline(always)]
+    fn or(self, mask: u32, other: Self) -> Self {
+        Self {
+            distance: choose(mask, self.distance as u32, other.distance as u32) as i32,
+            entry: self.entry.or(mask, other.entry),
+        }
+    }
+}
+
+/// Returns the nearer one of two opposite neighbours, if they close the cell between them.
 #[inline(always)]
-fn closing<F: Format>(
+fn closing<F: Format, const CONSTANT_TIME: bool>(
     sources: &[Source<'_, F>],
     [a, b]: [Entry; 2],
     towards: [i32; 2],
     limit: i32,
-    best: Best,
-) -> Best {
-    if !a.is_some() || !b.is_some() || a.depth().max(b.depth()) >= limit {
-        return best;
+) -> Closing {
+    let are_nearer = mask::<CONSTANT_TIME>(a.is_some() & b.is_some() & (a.depth().max(b.depth()) < limit));
+    if !CONSTANT_TIME && are_nearer == 0 {
+        return Closing::NONE;
     }
-    if !joined(sources, a.sample(), b.sample()) {
-        return best;
+    let closes = are_nearer & joined::<F, CONSTANT_TIME>(sources, [a, b].map(|entry| entry.sample() & are_nearer));
+    if !CONSTANT_TIME && closes == 0 {
+        return Closing::NONE;
     }
     let from = |entry: Entry, side: i32| {
         let [u, v] = entry.residual();
         let residual = [u + side * towards[0] * CELL, v + side * towards[1] * CELL];
-        (residual[0].abs() + residual[1].abs(), entry.seen_from(residual))
+        Closing { distance: residual[0].abs() + residual[1].abs(), entry: entry.seen_from(residual) }
     };
     let (a, b) = (from(a, 1), from(b, -1));
-    let nearer = if a.0 <= b.0 { a } else { b };
-    if best.is_none_or(|best| nearer.0 < best.0) { Some(nearer) } else { best }
+    a.or(mask::<CONSTANT_TIME>(a.distance <= b.distance), b).or(closes, Closing::NONE)
 }
 
-/// Returns whether two samples are the same, or are linked by a path, see [`path`].
-fn joined<F: Format>(sources: &[Source<'_, F>], a: u32, b: u32) -> bool {
-    let Some((source, first, _)) = super::layer_of(sources, a.min(b)) else { return false };
+/// Returns all ones if two samples are the same, or are linked by a path, see [`path`], else 0.
+#[inline(always)]
+fn joined<F: Format, const CONSTANT_TIME: bool>(sources: &[Source<'_, F>], [a, b]: [u32; 2]) -> u32 {
+    let found = if CONSTANT_TIME {
+        super::layer_of_any(sources, a.min(b))
+    } else {
+        super::layer_of(sources, a.min(b)).map(|(source, first, _)| (source, first))
+    };
+    let Some((source, first)) = found else { return 0 };
     let links = source.links();
     let (from, to) = (a - first, b.wrapping_sub(first));
     // Which row the second one is in follows from the numbers: no path leads around the end of a row.
     let between = to.wrapping_sub(from) as i32;
     let width = links.width as i32;
-    [0, -width, width, -2 * width, 2 * width].into_iter().any(|down| {
-        let across = between - down;
-        across.abs() <= SPAN && path(links, from, across, down)
-    })
+    let downs = [0, -width, width, -2 * width, 2 * width];
+    let near = |down: i32| (between - down).abs() <= SPAN;
+    if CONSTANT_TIME && width > 2 * SPAN {
+        // At most one of the rows is near enough.
+        let (down, any) = downs.into_iter().fold((0, 0), |(found, any), down| {
+            let near = mask::<CONSTANT_TIME>(near(down));
+            (choose(near, down as u32, found as u32) as i32, any | near)
+        });
+        return any & path::<CONSTANT_TIME>(links, from, choose(any, (between - down) as u32, 0) as i32, down);
+    }
+    let path = |down: i32| mask::<CONSTANT_TIME>(near(down)) & path::<CONSTANT_TIME>(links, from, between - down, down);
+    if CONSTANT_TIME {
+        return downs.into_iter().fold(0, |any, down| any | path(down));
+    }
+    mask::<CONSTANT_TIME>(downs.into_iter().any(|down| near(down) && path(down) != 0))
 }
 
-/// Returns whether links lead from a sample `across` samples along its row and `down` samples, which are whole rows,
-/// along the column: in turns one sample along the row and one along the column, as long as there are any left.
+/// Returns all ones if links lead from a sample `across` samples along its row and `down` samples, which are whole
+/// rows, along the column, else 0: in turns one sample along the row and one along the column, as long as there are any
+/// left, of each [`SPAN`] at most.
 ///
 /// So the path between opposite corners leads through what lies between them, and a hole of one cell, around which all
 /// samples are linked, is no crack.
-fn path(links: Links<'_>, from: u32, across: i32, down: i32) -> bool {
+#[inline(always)]
+fn path<const CONSTANT_TIME: bool>(links: Links<'_>, from: u32, across: i32, down: i32) -> u32 {
     let width = links.width as i32;
-    let (step_x, step_y) = (across.signum(), down.signum() * width);
-    let (mut at, mut left_x, mut left_y) = (from, across.abs(), down.abs());
-    while left_x | left_y != 0 {
-        if left_x != 0 {
-            let Some(next) = at.checked_add_signed(step_x).filter(|&next| links.right(at.min(next))) else {
-                return false;
-            };
-            (at, left_x) = (next, left_x - 1);
-        }
-        if left_y != 0 {
-            let Some(next) = at.checked_add_signed(step_y).filter(|&next| links.below(at.min(next))) else {
-                return false;
-            };
-            (at, left_y) = (next, left_y - width);
-        }
+    let (mut at, mut linked) = (from, true);
+    for step in 1..=SPAN {
+        let along = choose(mask::<CONSTANT_TIME>(across.abs() >= step), across.signum() as u32, 0) as i32;
+        linked &= (along == 0) | links.right(at.wrapping_add_signed(along.min(0)));
+        at = at.wrapping_add_signed(along);
+        let far = mask::<CONSTANT_TIME>(down.abs() >= step.wrapping_mul(width));
+        let along = choose(far, down.signum().wrapping_mul(width) as u32, 0) as i32;
+        linked &= (along == 0) | links.below(at.wrapping_add_signed(along.min(0)));
+        at = at.wrapping_add_signed(along);
     }
-    true
+    mask::<CONSTANT_TIME>(linked)
 }

@@ -58,6 +58,7 @@
 //! # Ok::<(), galpix_core::SetupError>(())
 //! ```
 
+pub(crate) mod constant_time;
 pub(crate) mod cracks;
 pub(crate) mod gather;
 pub(crate) mod layer;
@@ -71,6 +72,7 @@ pub(crate) mod visibility;
 #[cfg(test)]
 mod tests;
 
+pub use constant_time::Budget;
 pub use layer::Source;
 pub use links::words as link_words;
 pub use row::Gather;
@@ -81,8 +83,10 @@ use crate::fast;
 use crate::format::Format;
 use crate::format::rounding::Rounding;
 use crate::frame::Settings;
+use crate::frame::reference::{below, choose, opaque};
 use crate::frame::tally::Tally;
 use crate::map::Galpixmap;
+use cracks::Closed;
 use visibility::threshold;
 
 /// Layers of stationary sources, and what of them is shown.
@@ -127,6 +131,18 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
         let step = Some((settings.rounding, self.frame));
         self.frame = self.frame.wrapping_add(1);
         F::sources_draw(self.layers, &mut self.visibility, settings.edge_threshold, step)
+    }
+
+    /// Makes the next frame as [`Self::step`], by instructions that do not depend on the picture. Returns with the counts
+    /// how much of what is rare was left out, because it was beyond the budget: quads that were not drawn, and cells that
+    /// were not looked at for cracks. If that is 0, the frame is that of [`Self::step`], bit by bit.
+    ///
+    /// *Cost:* each quad of the budget takes about as many instructions as six samples, each crack as five: see
+    /// `docs/cost.md`.
+    pub fn step_constant_time(&mut self, settings: &Settings, budget: &Budget) -> (Tally, u32) {
+        let frame = self.frame;
+        self.frame = self.frame.wrapping_add(1);
+        F::sources_draw_constant_time(self.layers, &mut self.visibility, settings, (frame, budget))
     }
 
     /// Shows the samples where they are, without a step: after an update.
@@ -219,18 +235,33 @@ pub(crate) fn draw<F: Format>(
     edge_threshold: u32,
     step: Option<(Rounding, u32)>,
 ) -> Tally {
+    let show = |layer: &mut Source<'_, F>, visibility: &mut Visibility<'_>, first| {
+        fast::scatter(layer, visibility, first, edge_threshold, step)
+    };
+    drawn(layers, visibility, edge_threshold, show, fast::close_cracks)
+}
+
+/// Shows all layers, given the number of the first sample of each, and closes cracks; returns the counts.
+#[inline(always)]
+fn drawn<'p, 'v, F: Format>(
+    layers: &mut [Source<'p, F>],
+    visibility: &mut Visibility<'v>,
+    edge_threshold: u32,
+    show: impl Fn(&mut Source<'p, F>, &mut Visibility<'v>, u32) -> Tally,
+    close: impl FnOnce(&[Source<'p, F>], &mut Visibility<'v>, i32) -> Closed,
+) -> Tally {
     visibility.clear();
     let mut tally = Tally::default();
     let mut first = 0;
     for layer in layers.iter_mut() {
-        let own = fast::scatter(layer, visibility, first, edge_threshold, step);
+        let own = show(layer, visibility, first);
         tally.moved += own.moved;
         tally.lost += own.lost;
         tally.saturated += own.saturated;
         first += layer.map.grid().cells();
     }
     let bits = layers.first().map_or(0, |layer| layer.map.record().depth().bits.into());
-    let closed = fast::close_cracks(layers, visibility, threshold(edge_threshold, bits));
+    let closed = close(layers, visibility, threshold(edge_threshold, bits));
     Tally {
         collided: tally.moved - tally.lost - closed.points,
         holes: closed.holes + closed.empty,
@@ -238,6 +269,22 @@ pub(crate) fn draw<F: Format>(
         empty: closed.empty,
         ..tally
     }
+}
+
+/// Returns the layer of a sample and the number of its first sample, looking at all layers. Of a number that no sample
+/// has it is the last layer.
+#[inline(always)]
+pub(crate) fn layer_of_any<'s, 'p, F: Format>(
+    layers: &'s [Source<'p, F>],
+    sample: u32,
+) -> Option<(&'s Source<'p, F>, u32)> {
+    let (mut first, mut index, mut start) = (0, 0, 0);
+    for (number, layer) in (0..).zip(layers) {
+        let here = opaque(!below(sample, start));
+        (first, index) = (choose(here, start, first), choose(here, number, index));
+        start += layer.map.grid().cells();
+    }
+    Some((layers.get(index as usize)?, first))
 }
 
 /// Returns the layer of a sample, the number of its first sample, and its own number.

@@ -7,6 +7,7 @@
 use super::layer::{CORNER_PARTS, Source};
 use super::visibility::{Entry, Kind, PARTS, Visibility, depth};
 use crate::format::Format;
+use crate::frame::reference;
 
 /// A cell in the parts in which places count.
 const CELL: i32 = 1 << CORNER_PARTS;
@@ -38,71 +39,114 @@ const RECIPROCALS: [u16; 64] = {
     table
 };
 
-/// Returns about `2^20 / number`, for a positive number. Shifts by ones: not every processor counts leading zeros.
+/// Returns about `2^20 / number`, for a positive number of at most 17 bits. Halves and doubles it by halves of the bits
+/// that may be too many or too few: not every processor counts leading zeros.
 #[inline(always)]
 fn reciprocal(number: i32) -> i32 {
-    const LEAST: i32 = 1 << (MANTISSA - 1);
-    let (mut mantissa, mut up, mut down) = (number, 0, 0);
-    while mantissa >= LEAST << 1 {
-        mantissa >>= 1;
-        down += 1;
+    let (mut mantissa, mut up, mut down) = (number as u32, 0, 0);
+    for bits in [8, 4, 2, 1] {
+        let long = reference::not_zero(mantissa >> (MANTISSA + bits - 1));
+        mantissa >>= bits & long;
+        down += bits & long;
     }
-    while mantissa < LEAST {
-        mantissa <<= 1;
-        up += 1;
+    for bits in [4, 2, 1] {
+        let short = !reference::not_zero(mantissa >> (MANTISSA - bits));
+        mantissa <<= bits & short;
+        up += bits & short;
     }
     i32::from(RECIPROCALS[mantissa as usize & 63]) >> down << up
 }
 
-/// Shows a quad, if it is stretched.
-pub(crate) fn draw_one<F: Format>(
+/// A quad: the number of its layer's first sample, and column, row and cell of its own first one. It is not drawn if
+/// the mask is 0.
+pub(crate) struct Quad {
+    pub first: u32,
+    pub place: [i32; 2],
+    pub cell: u32,
+    pub mask: u32,
+}
+
+/// The places of a quad's corners relative to the first one, to the right, below, and at the opposite corner, and the
+/// place of the first one relative to its own cell.
+struct Corners {
+    place: [i32; 2],
+    relative: [[i32; 2]; 3],
+}
+
+impl Corners {
+    #[inline(always)]
+    fn of<F: Format>(source: &Source<'_, F>, cell: u32) -> Self {
+        let width = source.map.grid().width();
+        let [place, right, below, last] =
+            [cell, cell + 1, cell + width, cell + width + 1].map(|cell| source.place(cell));
+        let relative = |to: [i32; 2], [cells_x, cells_y]: [i32; 2]| {
+            [to[0] - place[0] + cells_x * CELL, to[1] - place[1] + cells_y * CELL]
+        };
+        Self { place, relative: [relative(right, [1, 0]), relative(below, [0, 1]), relative(last, [1, 1])] }
+    }
+
+    #[inline(always)]
+    fn is_stretched(&self) -> bool {
+        let [a, b, _] = self.relative;
+        a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs()) > STRETCHED
+    }
+}
+
+/// Returns all ones if four linked samples are a stretched quad, else 0, in constant time.
+#[inline(always)]
+pub(crate) fn stretched<F: Format>(source: &Source<'_, F>, cell: u32) -> u32 {
+    u32::from(source.links().quad(cell) & Corners::of(source, cell).is_stretched()).wrapping_neg()
+}
+
+/// Shows a quad, if it is stretched. In constant time as many cells are looked at for each.
+pub(crate) fn draw_one<F: Format, const CONSTANT_TIME: bool>(
     source: &Source<'_, F>,
     visibility: &mut Visibility<'_>,
-    first: u32,
-    [x, y]: [i32; 2],
-    cell: u32,
+    Quad { first, place: [x, y], cell, mask }: Quad,
 ) {
-    let (width, grid) = (source.map.grid().width(), visibility.grid());
-    let [place, right, below, last] = [cell, cell + 1, cell + width, cell + width + 1].map(|cell| source.place(cell));
-    let relative = |to: [i32; 2], [cells_x, cells_y]: [i32; 2]| {
-        [to[0] - place[0] + cells_x * CELL, to[1] - place[1] + cells_y * CELL]
-    };
-    let (a, b, c) = (relative(right, [1, 0]), relative(below, [0, 1]), relative(last, [1, 1]));
-    let longest = a[0].abs().max(a[1].abs()).max(b[0].abs()).max(b[1].abs());
-    if longest <= STRETCHED {
-        return;
-    }
+    let corners = Corners::of(source, cell);
+    let [a, b, c] = corners.relative;
     // The first corner as seen from the first cell of the grid.
-    let corner = [(x << CORNER_PARTS) + place[0], (y << CORNER_PARTS) + place[1]];
+    let corner = [(x << CORNER_PARTS) + corners.place[0], (y << CORNER_PARTS) + corners.place[1]];
     // The first and the last cell in x or y.
     let span = |corner: i32, [a, b, c]: [i32; 3]| {
         let (low, high) = (a.min(b).min(c).min(0), a.max(b).max(c).max(0));
         ((corner + low + CELL - 1) >> CORNER_PARTS, (corner + high - 1) >> CORNER_PARTS)
     };
     let (columns, rows) = (span(corner[0], [a[0], b[0], c[0]]), span(corner[1], [a[1], b[1], c[1]]));
-    if columns.1 - columns.0 >= LARGEST || rows.1 - rows.0 >= LARGEST {
+    let is_small = (columns.1 - columns.0 < LARGEST) & (rows.1 - rows.0 < LARGEST);
+    let drawn = mask & u32::from(corners.is_stretched() & is_small).wrapping_neg();
+    if !CONSTANT_TIME && drawn == 0 {
         return;
     }
-    // The corners are now known to be near each other, so that no product overflows.
-    let area = a[0] * b[1] - b[0] * a[1];
-    if area < SMALLEST {
+    // The corners of a quad that is drawn are near each other, so that no product overflows.
+    let product = |a: i32, b: i32| a.wrapping_mul(b);
+    let area = product(a[0], b[1]).wrapping_sub(product(b[0], a[1]));
+    let drawn = drawn & u32::from(area >= SMALLEST).wrapping_neg();
+    if !CONSTANT_TIME && drawn == 0 {
         return;
     }
     let record = source.map.record();
     let depth = depth(source.map.unsigned(record.depth(), cell), record.depth().bits.into());
     let (slack, reciprocal) = (area >> 2, reciprocal(area));
-    let sixteenths = |part: i32| (part * reciprocal + (1 << (RECIPROCAL - PARTS) >> 1)) >> (RECIPROCAL - PARTS);
-    for row in rows.0..=rows.1 {
-        for column in columns.0..=columns.1 {
-            let Some(target) = grid.cell(column, row) else { continue };
+    let sixteenths =
+        |part: i32| product(part, reciprocal).wrapping_add(1 << (RECIPROCAL - PARTS) >> 1) >> (RECIPROCAL - PARTS);
+    let last = |(first, last): (i32, i32)| if CONSTANT_TIME { first + LARGEST - 1 } else { last };
+    for row in rows.0..=last(rows) {
+        for column in columns.0..=last(columns) {
             let from = [(column << CORNER_PARTS) - corner[0], (row << CORNER_PARTS) - corner[1]];
-            let u = b[1] * from[0] - b[0] * from[1];
-            let v = a[0] * from[1] - a[1] * from[0];
-            if u < -slack || v < -slack || u > area + slack || v > area + slack {
+            let u = product(b[1], from[0]).wrapping_sub(product(b[0], from[1]));
+            let v = product(a[0], from[1]).wrapping_sub(product(a[1], from[0]));
+            let most = area.wrapping_add(slack);
+            let least = slack.wrapping_neg();
+            let inside = (u >= least) & (v >= least) & (u <= most) & (v <= most);
+            let inside = inside & (row <= rows.1) & (column <= columns.1);
+            if !CONSTANT_TIME && !inside {
                 continue;
             }
             let residual = [sixteenths(u).max(0), sixteenths(v).max(0)];
-            visibility.challenge(target, Entry::new(depth, Kind::Quad, first + cell, residual));
+            let entry = Entry::new(depth, Kind::Quad, first + cell, residual);
+            visibility.challenge_where(drawn & u32::from(inside).wrapping_neg(), [column, row], entry);
         }
     }
 }

@@ -1,18 +1,15 @@
 //! The passes over stationary sources one sample or cell at a time, as section 21 of the specification has them: for
 //! tests, and for the feature `check`.
 
+use super::constant_time::{quads, samples};
 use super::cracks::{Closed, best, each_row};
-use super::layer::moved;
 use super::links::{FIRST, LINKED, SECOND, Value, WORD, values};
-use super::quads::draw_one;
 use super::row::{Finish, finish_cell};
-use super::visibility::{Entry, Kind, PARTS, Visibility, depth, threshold};
+use super::visibility::Visibility;
 use super::{Source, Sources};
 use crate::format::Format;
 use crate::format::rounding::Rounding;
-use crate::frame::step::{advance, parts, thresholds};
 use crate::frame::tally::Tally;
-use crate::layers::displacement;
 use crate::map::Galpixmap;
 use crate::map::galpixel::Class;
 
@@ -60,11 +57,7 @@ fn pair<F: Format>(map: &Galpixmap<'_, F>, values: &[Value; 3], cells: [Option<u
     }
 }
 
-/// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them, then the stretched quads.
-/// `first` is the number of the layer's first sample.
-///
-/// Points lie behind quads of the same surface by half of the edge threshold, which is in units of the depth's last
-/// bit.
+/// Steps the samples of a layer, if a rounding and a frame counter are given, and shows them, then all stretched quads.
 pub(crate) fn scatter<F: Format>(
     source: &mut Source<'_, F>,
     visibility: &mut Visibility<'_>,
@@ -72,48 +65,8 @@ pub(crate) fn scatter<F: Format>(
     edge_threshold: u32,
     step: Option<(Rounding, u32)>,
 ) -> Tally {
-    let format = source.map.format();
-    let record = format.record();
-    let (grid, display) = (*source.map.grid(), visibility.grid());
-    let thresholds = step.map(|(rounding, frame)| thresholds(record, rounding, frame));
-    let depth_bits = u32::from(record.depth().bits);
-    let behind = threshold(edge_threshold, depth_bits) as u32 >> 1;
-    let fracs = [record.offset_x().bits.into(), record.offset_y().bits.into()];
-    let mut tally = Tally::default();
-    for (y, &start) in (0..).zip(grid.starts()) {
-        for (x, cell) in (0..grid.width() as i32).zip(start..) {
-            let Some(mut words) = source.map.words_at(cell) else { continue };
-            if record.class().unsigned(&words) != Class::Galpixel as u32 {
-                continue;
-            }
-            let Some(place) = source.displacements.get_mut(cell as usize) else { continue };
-            if let Some(thresholds) = &thresholds {
-                let step = advance::<true>(record, thresholds, &mut words);
-                let [dx, dy] = displacement(*place);
-                let clamped;
-                (*place, clamped) = moved([dx + step.dx, dy + step.dy]);
-                tally.saturated += step.saturated() + clamped;
-                source.map.put(cell, &words);
-            }
-            tally.moved += 1;
-            let [dx, dy] = displacement(*place);
-            let Some(target) = display.cell(x + dx, y + dy) else {
-                tally.lost += 1;
-                continue;
-            };
-            let offset = [record.offset_x().signed(&words), record.offset_y().signed(&words)];
-            let depth = depth(record.depth().unsigned(&words), depth_bits) + behind;
-            let entry = Entry::new(depth, Kind::Point, first + cell, residual(offset, fracs));
-            visibility.challenge(target, entry);
-        }
-    }
-    for (y, &start) in (0..).zip(grid.starts()) {
-        for (x, cell) in (0..grid.width() as i32).zip(start..) {
-            if source.links().quad(cell) {
-                draw_one(source, visibility, first, [x, y], cell);
-            }
-        }
-    }
+    let tally = samples(source, visibility, first, edge_threshold, step);
+    quads(source, visibility, first, usize::MAX);
     tally
 }
 
@@ -122,15 +75,15 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
     let grid = visibility.grid();
     let width = grid.width();
     let mut closed = Closed::default();
-    each_row(&grid, visibility, |visibility, y, start| {
+    each_row(visibility, None, |visibility, y, start| {
         let mut count = 0;
         for x in 0..width {
             let own = visibility.at(start + x);
-            let best = best(sources, visibility, [x as i32, y as i32], threshold);
+            let (closes, entry) = best::<F, true>(sources, visibility, [x as i32, y as i32], threshold);
             closed.points += u32::from(own.is_point());
-            closed.holes += u32::from(!own.is_some() && best.is_some());
-            closed.empty += u32::from(!own.is_some() && best.is_none());
-            if let Some(entry) = best {
+            closed.holes += u32::from(!own.is_some() && closes != 0);
+            closed.empty += u32::from(!own.is_some() && closes == 0);
+            if closes != 0 {
                 visibility.postpone(y, count, x, entry);
                 count += 1;
             }
@@ -145,9 +98,4 @@ pub(crate) fn finish_row<F: Format>(sources: &Sources<'_, '_, F>, finish: &Finis
     for (to, x) in colours.iter_mut().zip(0..finish.grid.width()) {
         *to = finish_cell(sources, finish, x);
     }
-}
-
-/// Returns the residual of the cell that is nearest to a sample with these offsets, in sixteenths of a cell.
-pub(crate) const fn residual(offset: [i32; 2], frac: [u32; 2]) -> [i32; 2] {
-    [-parts::<PARTS>(offset[0], frac[0]), -parts::<PARTS>(offset[1], frac[1])]
 }

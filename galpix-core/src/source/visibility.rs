@@ -14,6 +14,7 @@
 //! *Memory:* 6 bytes a cell, and 16 bytes a column for [`cracks`](super::cracks).
 
 use crate::error::SetupError;
+use crate::frame::reference;
 use crate::map::grid::Grid;
 
 /// Bits of a sample's number, which is its cell, plus the cells of the map for each layer before its own.
@@ -111,7 +112,16 @@ impl Entry {
         Self { word: self.sample() << (2 * RESIDUAL_BITS) | packed(residual), ..self }
     }
 
+    /// Returns `self` where the mask has ones, else `other`.
     #[inline(always)]
+    pub(crate) fn or(self, mask: u32, other: Self) -> Self {
+        Self {
+            key: reference::choose(mask, self.key.into(), other.key.into()) as u16,
+            word: reference::choose(mask, self.word, other.word),
+        }
+    }
+
+    #[cfg(test)]
     const fn is_before(self, other: Self) -> bool {
         self.key < other.key || self.key == other.key && self.word < other.word
     }
@@ -204,6 +214,32 @@ impl<'p> Visibility<'p> {
         }
     }
 
+    /// Returns the key and the word of a cell, whatever they are; those of an empty cell outside of the map.
+    #[inline(always)]
+    fn stored(&self, cell: u32) -> Entry {
+        match (self.keys.get(cell as usize), self.words.get(cell as usize)) {
+            (Some(&key), Some(&word)) => Entry { key, word },
+            _ => Entry::NONE,
+        }
+    }
+
+    /// Returns all ones for a cell that shows no sample, else 0.
+    #[inline(always)]
+    pub(crate) fn is_empty(&self, cell: u32) -> u32 {
+        reference::opaque(u32::from(self.stored(cell).key == EMPTY).wrapping_neg())
+    }
+
+    /// Returns what the cell of a place shows; nothing outside of the map. In constant time the word of nothing is any.
+    #[inline(always)]
+    pub(crate) fn at_place<const CONSTANT_TIME: bool>(&self, place: [i32; 2]) -> Entry {
+        if !CONSTANT_TIME {
+            return self.grid.cell(place[0], place[1]).map_or(Entry::NONE, |cell| self.at(cell));
+        }
+        let beyond = reference::beyond(&self.grid, place);
+        let stored = self.stored(reference::cell_or_first(&self.grid, place, beyond));
+        Entry { key: stored.key | beyond as u16, ..stored }
+    }
+
     /// Returns keys and words of some cells; none if not all of them are in the buffer.
     #[inline(always)]
     pub(crate) fn cells_from(&self, cell: u32, count: usize) -> (&[u16], &[u32]) {
@@ -212,13 +248,50 @@ impl<'p> Visibility<'p> {
     }
 
     /// Shows an entry in a cell if it is before what the cell shows.
-    #[inline(always)]
+    #[cfg(test)]
     pub(crate) fn challenge(&mut self, cell: u32, entry: Entry) {
         if let (Some(key), Some(word)) = (self.keys.get_mut(cell as usize), self.words.get_mut(cell as usize))
             && entry.is_before(Entry { key: *key, word: *word })
         {
             (*key, *word) = (entry.key, entry.word);
         }
+    }
+
+    /// Shows an entry at a place, if the mask has ones, the place is on the map, and the entry is before what its cell
+    /// shows. Reads and writes in any case.
+    #[inline(always)]
+    pub(crate) fn challenge_where(&mut self, mask: u32, place: [i32; 2], entry: Entry) {
+        let beyond = reference::beyond(&self.grid, place);
+        let cell = reference::cell_or_first(&self.grid, place, beyond) as usize;
+        if let (Some(key), Some(word)) = (self.keys.get_mut(cell), self.words.get_mut(cell)) {
+            let order = |key: u16, word: u32| u64::from(key) << 32 | u64::from(word);
+            let wins = u32::from(order(entry.key, entry.word) < order(*key, *word)).wrapping_neg();
+            let mask = reference::opaque(mask & !beyond & wins);
+            *key = reference::choose(mask, entry.key.into(), (*key).into()) as u16;
+            *word = reference::choose(mask, entry.word, *word);
+        }
+    }
+
+    /// Keeps column `x` in a list of row `y`, as its number `count`. The list of a row lies where the last entries of
+    /// [`Self::postpone`] would: if as many are read as are postponed, each is read before it is written over.
+    #[inline(always)]
+    pub(crate) fn list(&mut self, y: usize, count: usize, x: usize) {
+        let at = self.list_of(y) + count;
+        if let Some(place) = self.line.get_mut(at) {
+            *place = x as u16;
+        }
+    }
+
+    /// Returns column number `count` of the list of row `y`.
+    #[inline(always)]
+    pub(crate) fn listed(&self, y: usize, count: usize) -> u32 {
+        self.line.get(self.list_of(y) + count).copied().unwrap_or_default().into()
+    }
+
+    #[inline(always)]
+    fn list_of(&self, y: usize) -> usize {
+        let half = self.line.len() >> 1;
+        (y & 1) * half + half - half / POSTPONED
     }
 
     /// Returns the keys and the words of all cells, and the line, for passes that take many cells at once.
@@ -233,6 +306,22 @@ impl<'p> Visibility<'p> {
         let at = (y & 1) * (self.line.len() >> 1) + POSTPONED * count;
         if let Some(place) = self.line.get_mut(at..).and_then(|line| line.first_chunk_mut()) {
             *place = [x as u16, entry.key, entry.word as u16, (entry.word >> 16) as u16];
+        }
+    }
+
+    /// Shows the `count` entries that were kept for row `y`, which begins with cell `start`, by instructions that depend
+    /// on `most`, at least `count`, alone.
+    #[inline(always)]
+    pub(crate) fn settle_of(&mut self, y: usize, start: u32, count: usize, most: usize) {
+        let at = (y & 1) * (self.line.len() >> 1);
+        let kept = self.line.get(at..at + POSTPONED * most).unwrap_or_default();
+        for (slot, &[x, new_key, low, high]) in (0..).zip(kept.as_chunks::<POSTPONED>().0) {
+            let mask = reference::opaque(reference::below(slot, count as u32));
+            let cell = (start + (u32::from(x) & mask)) as usize;
+            if let (Some(key), Some(word)) = (self.keys.get_mut(cell), self.words.get_mut(cell)) {
+                *key = reference::choose(mask, new_key.into(), (*key).into()) as u16;
+                *word = reference::choose(mask, u32::from(high) << 16 | u32::from(low), *word);
+            }
         }
     }
 

@@ -4,9 +4,10 @@ use super::*;
 use crate::fast;
 use crate::frame::Settings;
 use crate::frame::step::parts;
+use crate::source::constant_time::residual;
 use crate::source::cracks::Closed;
 use crate::source::links::Links;
-use crate::source::reference::{self, residual};
+use crate::source::reference;
 use crate::source::visibility::{EMPTY, Entry, FARTHEST, Kind, MOST_SAMPLES};
 
 /// A number of 2^`frac` parts of a cell in `count` parts, halves upwards.

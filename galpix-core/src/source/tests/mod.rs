@@ -1,5 +1,6 @@
 //! Stationary sources: the fast passes against their references, small budgets exhaustively, and what is seen.
 
+mod constant_time;
 mod equal;
 mod exact;
 mod objects;

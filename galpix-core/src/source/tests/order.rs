@@ -3,8 +3,9 @@
 use super::*;
 use crate::fast;
 use crate::layers::displacement;
+use crate::source::constant_time::residual;
 use crate::source::quads;
-use crate::source::reference::{self, residual};
+use crate::source::reference;
 use crate::source::visibility::{Entry, Kind, depth, threshold};
 
 /// The points of a layer, each with its cell.
@@ -85,7 +86,11 @@ fn compare(random: &mut Random, sources: &mut Sources<'_, '_, Dynamic>, edge_thr
                     let layer = &layers[number];
                     let width = layer.map.grid().width();
                     let place = [(cell % width) as i32, (cell / width) as i32];
-                    quads::draw_one(layer, visibility, firsts[number], place, cell);
+                    quads::draw_one::<_, false>(
+                        layer,
+                        visibility,
+                        quads::Quad { first: firsts[number], place, cell, mask: u32::MAX },
+                    );
                 }
             }
         }

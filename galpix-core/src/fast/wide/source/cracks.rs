@@ -2,26 +2,24 @@
 
 use super::{RUN, run_at, run_before};
 use crate::format::Format;
-use crate::map::grid::Grid;
+use crate::frame::reference::{below, opaque};
 use crate::source::Source;
 use crate::source::cracks::{Closed, best, each_row};
 use crate::source::visibility::{EMPTY, Kind, Visibility};
 
 /// Closes cracks, see [`crate::source::cracks`].
 pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visibility<'_>, threshold: i32) -> Closed {
-    let grid = visibility.grid();
-    let (width, mut closed) = (grid.width() as usize, Closed::default());
-    // Keys of depths that differ by more than the threshold differ by more than twice as much.
-    let near = (threshold << 1).min(EMPTY.into()) as u16;
-    each_row(&grid, visibility, |visibility, y, start| {
+    let (width, mut closed) = (visibility.grid().width() as usize, Closed::default());
+    each_row(visibility, None, |visibility, y, start| {
         let mut count = 0;
         for x in (0..width).step_by(RUN) {
             let mut flags = [0; RUN];
-            if flag(&Rows::around(&grid, visibility, y), x, near, &mut flags, &mut closed) == 0 {
+            if flag(&Rows::around(visibility, y), x, near(threshold), &mut flags, &mut closed) == 0 {
                 continue;
             }
             for (x, _) in (x..width).zip(&flags).filter(|(_, flag)| **flag != 0) {
-                if let Some(entry) = best(sources, visibility, [x as i32, y as i32], threshold) {
+                let (closes, entry) = best::<F, false>(sources, visibility, [x as i32, y as i32], threshold);
+                if closes != 0 {
                     let hole = !visibility.at(start + x as u32).is_some();
                     closed.holes += u32::from(hole);
                     closed.empty -= u32::from(hole);
@@ -35,6 +33,47 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
     closed
 }
 
+/// Closes cracks in constant time: looks at `most` cells of each row, from the left. Returns also how many are left out.
+pub(crate) fn close_constant_time<F: Format>(
+    sources: &[Source<'_, F>],
+    visibility: &mut Visibility<'_>,
+    threshold: i32,
+    most: usize,
+) -> (Closed, u32) {
+    let width = visibility.grid().width() as usize;
+    let (most, mut closed, mut left_out) = (most.min(width), Closed::default(), 0);
+    each_row(visibility, Some(most), |visibility, y, start| {
+        let mut listed = 0;
+        for x in (0..width).step_by(RUN) {
+            let mut flags = [0; RUN];
+            flag(&Rows::around(visibility, y), x, near(threshold), &mut flags, &mut closed);
+            for (x, flag) in (x..width).zip(flags) {
+                visibility.list(y, listed, x);
+                listed += usize::from(flag);
+            }
+        }
+        let mut count = 0;
+        for slot in 0..most {
+            let mask = opaque(below(slot as u32, listed as u32));
+            let x = visibility.listed(y, slot) & mask;
+            let (closes, entry) = best::<F, true>(sources, visibility, [x as i32, y as i32], threshold);
+            let hole = closes & mask & visibility.is_empty(start + x) & 1;
+            closed.holes += hole;
+            closed.empty -= hole;
+            visibility.postpone(y, count, x, entry);
+            count += (closes & mask & 1) as usize;
+        }
+        left_out += listed.saturating_sub(most) as u32;
+        count
+    });
+    (closed, left_out)
+}
+
+/// Keys of depths that differ by more than the threshold differ by more than twice as much.
+fn near(threshold: i32) -> u16 {
+    (threshold << 1).min(EMPTY.into()) as u16
+}
+
 /// The keys of a row and those around it; a row beyond the map is empty.
 struct Rows<'v> {
     above: &'v [u16],
@@ -44,7 +83,8 @@ struct Rows<'v> {
 
 impl<'v> Rows<'v> {
     #[inline(always)]
-    fn around(grid: &Grid<'_>, visibility: &'v Visibility<'_>, y: usize) -> Self {
+    fn around(visibility: &'v Visibility<'_>, y: usize) -> Self {
+        let grid = visibility.grid();
         let row = |y: i32| match grid.row(y) {
             Some(start) => visibility.cells_from(start, grid.width() as usize).0,
             None => &[],

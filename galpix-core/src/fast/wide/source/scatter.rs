@@ -16,7 +16,7 @@ use crate::layers::displacement;
 use crate::map::grid::Grid;
 use crate::source::Source;
 use crate::source::layer::CORNER_PARTS;
-use crate::source::quads::{self, STRETCHED};
+use crate::source::quads::{Quad, STRETCHED, draw_one};
 use crate::source::visibility::{EMPTY, FARTHEST, Kind, PARTS, RESIDUAL_BITS, Visibility, depth, threshold};
 
 /// What a chunk shows. The memory is reused for all chunks.
@@ -255,7 +255,8 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
                     let cell = start + (x + lane) as u32;
                     if self.steps.source.links().quad(cell) {
                         let place = [(x + lane) as i32, y as i32];
-                        quads::draw_one(self.steps.source, self.visibility, self.first, place, cell);
+                        let quad = Quad { first: self.first, place, cell, mask: u32::MAX };
+                        draw_one::<F, false>(self.steps.source, self.visibility, quad);
                     }
                 }
             }
