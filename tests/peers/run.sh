@@ -2,8 +2,8 @@
 # Compares galpix's hole filling with what others offer. Nothing that is built needs it.
 #
 #   tests/peers/run.sh [SOURCE...]                PSNR, FLIP, local variance, and the peers' time
-#   tests/peers/run.sh --lpips [SOURCE...]        also LPIPS (65 MB are fetched)
-#   tests/peers/run.sh --perceptual [SOURCE...]   also LPIPS and ColorVideoVDP (6 GB are installed: PyTorch)
+#   tests/peers/run.sh --lpips [SOURCE...]        also LPIPS (65 MB are fetched) and the metameric loss
+#   tests/peers/run.sh --perceptual [SOURCE...]   also these and ColorVideoVDP (6 GB are installed: PyTorch)
 #   tests/peers/run.sh --research [SOURCE...]     also FovVideoVDP, which is not for commercial use
 #   tests/peers/run.sh --speed MASK [PICTURE]     milliseconds of the peers on one picture
 #   tests/peers/run.sh --check                    the scripts themselves, on made-up pictures, without galpix
@@ -72,5 +72,5 @@ rm -rf "$out"
 cargo run --locked --quiet --release -- fills --out "$out" "${sources[@]}" >/dev/null
 python $here/peers.py "$out" --json "$out/peers.json"
 if [ -n "$lpips" ]; then
-    python $here/perceptual.py "$out" --lpips "$archive" ${perceptual:+--video} ${research:+--fovvideovdp} --json "$out/perceptual.json"
+    python $here/perceptual.py "$out" --lpips "$archive" --metameric ${perceptual:+--video} ${research:+--fovvideovdp} --json "$out/perceptual.json"
 fi
