@@ -18,6 +18,7 @@ use std::process::{Command, ExitCode, Stdio};
 use galpix_bench::pictures::Picture;
 use galpix_bench::{Full, Shaded, Velocity565, at_run_time, grid};
 use galpix_core::layers::{Layer, Layers, Stationary, composite_words};
+use galpix_core::source::{Budget, Source, Sources, Visibility, link_words};
 use galpix_core::stages;
 use galpix_core::{Controller, Format, Galpixmap, Grid, Scratch, Settings, Static, Tally};
 
@@ -28,7 +29,7 @@ const MOST_SPREAD: f64 = 0.01;
 const MODES: [(bool, &str); 2] = [(false, "data-dependent"), (true, "constant-time")];
 
 /// What is counted, in this order, and each in the order of [`MODES`] and of [`Picture::ALL`].
-const LAYOUTS: [&str; 8] = [
+const LAYOUTS: [&str; 10] = [
     "Full",
     "Velocity565",
     "Shaded",
@@ -37,7 +38,14 @@ const LAYOUTS: [&str; 8] = [
     "Full, a base alone, likewise",
     "Full, two layers",
     "Velocity565, two layers and a stationary-source one",
+    "Full, stationary sources",
+    "Velocity565, stationary sources",
 ];
+
+/// What is done of rare things in a row of stationary sources: a sixteenth of all quads, and of all cells.
+const fn budget(width: u32) -> Budget {
+    Budget { quads: width >> 4, cracks: width >> 4 }
+}
 
 /// Runs a frame whose instructions callgrind counts. Must keep its name, and no generic parameters, for [`COUNTED`].
 #[inline(never)]
@@ -144,6 +152,34 @@ fn alone<F: Format>(width: u32, height: u32, format: F) {
     }
 }
 
+/// Counts the second frame of each picture in each mode, of stationary sources.
+fn stationary<F: Format>(width: u32, height: u32, format: F) {
+    let grid = grid(width, height);
+    let cells = grid.cells() as usize;
+    for (constant_time, _) in MODES {
+        for picture in Picture::ALL {
+            let (mut map, mut displacements) = (vec![0; Galpixmap::words(&grid, format)], vec![0; cells]);
+            let (mut links, mut keys, mut words) = (vec![0; link_words(&grid)], vec![0; cells], vec![0; cells]);
+            let mut line = vec![0; Visibility::line_half_words(&grid)];
+            let mut map = Galpixmap::new(grid, format, &mut map).expect("memory enough");
+            picture.paint(&mut map);
+            let settings = settings(&map);
+            let mut source = Source::new(map, &mut displacements, &mut links).expect("memory enough");
+            source.begin(settings.edge_threshold);
+            let visibility = Visibility::new(&grid, &mut keys, &mut words, &mut line).expect("memory enough");
+            let mut layers = [source];
+            let mut sources = Sources::new(&mut layers, visibility).expect("a layer");
+            let budget = black_box(budget(width));
+            let mut frame = || match constant_time {
+                true => sources.step_constant_time(&settings, &budget).0,
+                false => sources.step(&settings),
+            };
+            black_box(frame());
+            black_box(counted_frame(black_box(&mut frame)));
+        }
+    }
+}
+
 /// Counts the second frame of each picture in each mode, of a base that shows it and of `hidden` layers that show the
 /// pictures after it; the second of them is stationary.
 fn layered<F: Format>(width: u32, height: u32, format: F, hidden: usize) {
@@ -177,6 +213,8 @@ fn all_frames((width, height): (u32, u32)) {
     layered(width, height, Static::<Full>::new(), 0);
     layered(width, height, Static::<Full>::new(), 1);
     layered(width, height, Static::<Velocity565>::new(), 2);
+    stationary(width, height, Static::<Full>::new());
+    stationary(width, height, Static::<Velocity565>::new());
 }
 
 /// Runs this program under callgrind: the instructions of each counted frame, in their order.

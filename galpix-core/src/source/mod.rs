@@ -137,8 +137,8 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
     /// how much of what is rare was left out, because it was beyond the budget: quads that were not drawn, and cells that
     /// were not looked at for cracks. If that is 0, the frame is that of [`Self::step`], bit by bit.
     ///
-    /// *Cost:* each quad of the budget takes about as many instructions as six samples, each crack as five: see
-    /// `docs/cost.md`.
+    /// *Cost:* each quad and each crack of the budget takes about as many instructions as four samples, see
+    /// `docs/notes/sources.md`.
     pub fn step_constant_time(&mut self, settings: &Settings, budget: &Budget) -> (Tally, u32) {
         let frame = self.frame;
         self.frame = self.frame.wrapping_add(1);

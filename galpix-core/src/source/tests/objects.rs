@@ -88,6 +88,48 @@ fn a_layer_of_its_own_grid_is_shown_as_in_a_large_one() {
     }
 }
 
+/// The same where a near block has moved away from samples that a renderer has mixed, whose colours are unmixed then, and
+/// where it has not.
+#[test]
+fn rims_in_a_layer_of_its_own_grid_are_unmixed_as_in_a_large_one() {
+    let settings = Settings::for_depth(16);
+    let format = format(4, Layout { colour: Colour::GRAY8, ..Layout::FULL });
+    let is_near = |x: i32, y: i32| (12..25).contains(&x) && (4..7).contains(&y);
+    for [block, slide] in [[[3.0, 20.0], [0.3, 0.3]], [[0.0; 2], [0.0; 2]]] {
+        let object = drawn(OBJECT, format, |x, y| {
+            let is_beside = is_near(x - 1, y) || is_near(x + 1, y) || is_near(x, y - 1) || is_near(x, y + 1);
+            match (is_near(x, y), is_beside) {
+                (true, _) => gray(220, 0.25, block),
+                (false, true) => gray(150, 0.75, slide),
+                (false, false) => gray(100, 0.75, slide),
+            }
+        });
+        for place in [[30, 8], [0, 0], [35, 13]] {
+            let base = drawn(DISPLAY, format, |_, _| nothing());
+            let mut layers = [base.clone(), enlarged(format, &object, place)];
+            let large = with_sources(DISPLAY, format, &mut layers, &mut Random(1), |sources| {
+                sources.layers.iter_mut().for_each(|layer| layer.begin(settings.edge_threshold));
+                sources.step(&settings);
+                picture(sources)
+            });
+            let mut layers = [base, object.clone()];
+            let small = with_shapes(&[DISPLAY, OBJECT], format, &mut layers, &mut Random(2), |sources| {
+                sources.layers[0].begin(settings.edge_threshold);
+                sources.layers[1].begin_at(place.map(|number| number as i32), settings.edge_threshold);
+                sources.step(&settings);
+                picture(sources)
+            });
+            let colours = |picture: &[(Option<u16>, u32, u32)]| {
+                picture.iter().map(|&(key, finished, _)| (key, finished)).collect::<Vec<_>>()
+            };
+            assert!(colours(&small) == colours(&large), "{place:?}");
+            let is_mixed = |colour: &&(Option<u16>, u32)| colour.0.is_some() && (125..200).contains(&colour.1);
+            let mixed = colours(&small).iter().filter(is_mixed).count();
+            assert_eq!(mixed > 0, block == [0.0; 2], "{block:?} {place:?}");
+        }
+    }
+}
+
 /// How far a cell shows that its sample has moved is what its layer says.
 #[test]
 fn movements_are_those_of_the_layer() {
@@ -152,7 +194,12 @@ fn an_update_that_comes_late_is_as_one_in_time() {
             }
             assert!(picture(sources) == undisturbed, "an update that is not complete is not seen: {layout:?}");
             spare.begin(1024);
-            (0..6).for_each(|frame| _ = spare.step(settings.rounding, frame));
+            let samples = |source: &Source<'_, Dynamic>| {
+                (0..source.map.grid().cells()).filter(|&cell| source.map.class(cell) == Class::Galpixel).count() as u32
+            };
+            for frame in 0..6 {
+                assert_eq!(spare.step(settings.rounding, frame).moved, samples(&spare));
+            }
             sources.replace(1, &mut spare).unwrap();
             sources.step(&settings);
             assert!((sources.layers[1].displacements.to_vec(), picture(sources)) == expected, "{layout:?}");
