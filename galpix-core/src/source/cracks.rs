@@ -70,8 +70,13 @@ pub(crate) fn best<F: Format, const CONSTANT_TIME: bool>(
     let limit = choose(mask::<CONSTANT_TIME>(own.is_some()), (own.depth() - threshold) as u32, i32::MAX as u32) as i32;
     let closing =
         |[dx, dy]: [i32; 2]| closing::<F, CONSTANT_TIME>(sources, [at(-dx, -dy), at(dx, dy)], [dx, dy], limit);
-    let (across, down) = (closing([1, 0]), closing([0, 1]));
-    let mut best = down.or(mask::<CONSTANT_TIME>(across.distance > down.distance), across);
+    let mut best = Closing::NONE;
+    for straight in [[1, 0], [0, 1]] {
+        let closing = closing(straight);
+        if CONSTANT_TIME || closing.closes() {
+            best = closing.or(mask::<CONSTANT_TIME>(closing.distance < best.distance), best);
+        }
+    }
     for diagonal in [[1, 1], [1, -1]] {
         if !CONSTANT_TIME && best.closes() {
             break;
@@ -122,10 +127,11 @@ fn closing<F: Format, const CONSTANT_TIME: bool>(
     towards: [i32; 2],
     limit: i32,
 ) -> Closing {
-    let are_nearer = mask::<CONSTANT_TIME>(a.is_some() & b.is_some() & (a.depth().max(b.depth()) < limit));
-    if !CONSTANT_TIME && are_nearer == 0 {
+    let are_nearer = a.is_some() & b.is_some() & (a.depth().max(b.depth()) < limit);
+    if !CONSTANT_TIME && !are_nearer {
         return Closing::NONE;
     }
+    let are_nearer = mask::<CONSTANT_TIME>(are_nearer);
     let closes = are_nearer & joined::<F, CONSTANT_TIME>(sources, [a, b].map(|entry| entry.sample() & are_nearer));
     if !CONSTANT_TIME && closes == 0 {
         return Closing::NONE;
@@ -140,7 +146,7 @@ fn closing<F: Format, const CONSTANT_TIME: bool>(
 }
 
 /// Returns all ones if two samples are the same, or are linked by a path, see [`path`], else 0.
-#[inline(always)]
+#[inline(never)]
 fn joined<F: Format, const CONSTANT_TIME: bool>(sources: &[Source<'_, F>], [a, b]: [u32; 2]) -> u32 {
     let found = if CONSTANT_TIME {
         super::layer_of_any(sources, a.min(b))
@@ -176,17 +182,22 @@ fn joined<F: Format, const CONSTANT_TIME: bool>(sources: &[Source<'_, F>], [a, b
 ///
 /// So the path between opposite corners leads through what lies between them, and a hole of one cell, around which all
 /// samples are linked, is no crack.
-#[inline(always)]
 fn path<const CONSTANT_TIME: bool>(links: Links<'_>, from: u32, across: i32, down: i32) -> u32 {
     let width = links.width as i32;
     let (mut at, mut linked) = (from, true);
     for step in 1..=SPAN {
         let along = choose(mask::<CONSTANT_TIME>(across.abs() >= step), across.signum() as u32, 0) as i32;
         linked &= (along == 0) | links.right(at.wrapping_add_signed(along.min(0)));
+        if !CONSTANT_TIME && !linked {
+            return 0;
+        }
         at = at.wrapping_add_signed(along);
         let far = mask::<CONSTANT_TIME>(down.abs() >= step.wrapping_mul(width));
         let along = choose(far, down.signum().wrapping_mul(width) as u32, 0) as i32;
         linked &= (along == 0) | links.below(at.wrapping_add_signed(along.min(0)));
+        if !CONSTANT_TIME && !linked {
+            return 0;
+        }
         at = at.wrapping_add_signed(along);
     }
     mask::<CONSTANT_TIME>(linked)

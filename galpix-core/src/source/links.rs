@@ -183,8 +183,9 @@ impl Links<'_> {
 
     /// Returns whether four samples are a quad: a cell, the ones right of it and below it, and the fourth.
     #[inline(always)]
-    pub(crate) fn quad(self, cell: u32) -> bool {
-        (self.of(cell) == LINKED << 2 | LINKED) & self.below(cell + 1) & self.right(cell + self.width)
+    pub(crate) fn quad<const CONSTANT_TIME: bool>(self, cell: u32) -> bool {
+        let linked = self.of(cell) == LINKED << 2 | LINKED;
+        (CONSTANT_TIME || linked) && linked & self.below(cell + 1) & self.right(cell + self.width)
     }
 }
 

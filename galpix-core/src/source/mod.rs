@@ -133,9 +133,9 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
         F::sources_draw(self.layers, &mut self.visibility, settings.edge_threshold, step)
     }
 
-    /// Makes the next frame as [`Self::step`], by instructions that do not depend on the picture. Returns with the counts
-    /// how much of what is rare was left out, because it was beyond the budget: quads that were not drawn, and cells that
-    /// were not looked at for cracks. If that is 0, the frame is that of [`Self::step`], bit by bit.
+    /// Makes the next frame as [`Self::step`], by instructions that do not depend on the picture. Returns with the
+    /// counts how much of what is rare was left out, because it was beyond the budget: quads that were not drawn, and
+    /// cells that were not looked at for cracks. If that is 0, the frame is that of [`Self::step`], bit by bit.
     ///
     /// *Cost:* each quad and each crack of the budget takes about as many instructions as four samples, see
     /// `docs/notes/sources.md`.

@@ -95,7 +95,7 @@ impl Corners {
 /// Returns all ones if four linked samples are a stretched quad, else 0, in constant time.
 #[inline(always)]
 pub(crate) fn stretched<F: Format>(source: &Source<'_, F>, cell: u32) -> u32 {
-    u32::from(source.links().quad(cell) & Corners::of(source, cell).is_stretched()).wrapping_neg()
+    u32::from(source.links().quad::<true>(cell) & Corners::of(source, cell).is_stretched()).wrapping_neg()
 }
 
 /// Shows a quad, if it is stretched. In constant time as many cells are looked at for each.

@@ -309,8 +309,8 @@ impl<'p> Visibility<'p> {
         }
     }
 
-    /// Shows the `count` entries that were kept for row `y`, which begins with cell `start`, by instructions that depend
-    /// on `most`, at least `count`, alone.
+    /// Shows the `count` entries that were kept for row `y`, which begins with cell `start`, by instructions that
+    /// depend on `most`, at least `count`, alone.
     #[inline(always)]
     pub(crate) fn settle_of(&mut self, y: usize, start: u32, count: usize, most: usize) {
         let at = (y & 1) * (self.line.len() >> 1);

@@ -13,7 +13,7 @@ use galpix_core::layers::Layers;
 use galpix_core::objects::{Object, ObjectsTally, Queue};
 use galpix_core::overlay::{self, Overlay};
 use galpix_core::rolling::Rolling;
-use galpix_core::source::{Gather, Source, Sources};
+use galpix_core::source::{Budget, Gather, Source, Sources};
 use galpix_core::{
     Bits, Controller, Demand, Galpixmap, Inpainting, Layout, Profile, Rounding, Scratch, Settings, Static, Tally,
     scan_out, stages, sub_cell,
@@ -175,6 +175,16 @@ macro_rules! passes {
                     sources.show(settings);
                 }
                 sources.step(settings)
+            }
+
+            /// A frame of them in constant time.
+            #[unsafe(export_name = concat!("proof_sources_constant_", stringify!($name)))]
+            pub fn sources_constant(
+                sources: &mut Sources<'_, '_, Format>,
+                settings: &Settings,
+                budget: &Budget,
+            ) -> (Tally, u32) {
+                sources.step_constant_time(settings, budget)
             }
 
             /// Rows of them: gathered, how far they have moved, what is known of them, and finished.

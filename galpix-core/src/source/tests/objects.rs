@@ -88,8 +88,8 @@ fn a_layer_of_its_own_grid_is_shown_as_in_a_large_one() {
     }
 }
 
-/// The same where a near block has moved away from samples that a renderer has mixed, whose colours are unmixed then, and
-/// where it has not.
+/// The same where a near block has moved away from samples that a renderer has mixed, whose colours are unmixed then,
+/// and where it has not.
 #[test]
 fn rims_in_a_layer_of_its_own_grid_are_unmixed_as_in_a_large_one() {
     let settings = Settings::for_depth(16);

@@ -61,7 +61,9 @@ fn compare(random: &mut Random, sources: &mut Sources<'_, '_, Dynamic>, edge_thr
         let points = points(layer, first, edge_threshold).into_iter();
         arrivals.extend(points.map(|(target, entry)| Arrival::Point(target, entry)));
         let cells = layer.map.grid().cells();
-        arrivals.extend((0..cells).filter(|&cell| layer.links().quad(cell)).map(|cell| Arrival::Quad(number, cell)));
+        arrivals.extend(
+            (0..cells).filter(|&cell| layer.links().quad::<false>(cell)).map(|cell| Arrival::Quad(number, cell)),
+        );
         firsts.push(first);
         first += cells;
     }

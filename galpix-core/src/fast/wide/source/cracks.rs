@@ -33,7 +33,8 @@ pub(crate) fn close<F: Format>(sources: &[Source<'_, F>], visibility: &mut Visib
     closed
 }
 
-/// Closes cracks in constant time: looks at `most` cells of each row, from the left. Returns also how many are left out.
+/// Closes cracks in constant time: looks at `most` cells of each row, from the left. Returns also how many are left
+/// out.
 pub(crate) fn close_constant_time<F: Format>(
     sources: &[Source<'_, F>],
     visibility: &mut Visibility<'_>,

@@ -253,7 +253,7 @@ impl<F: Format> Pass<'_, '_, '_, '_, F> {
             if any != 0 {
                 for (lane, _) in flags.iter().enumerate().take(run).filter(|(_, flag)| **flag != 0) {
                     let cell = start + (x + lane) as u32;
-                    if self.steps.source.links().quad(cell) {
+                    if self.steps.source.links().quad::<false>(cell) {
                         let place = [(x + lane) as i32, y as i32];
                         let quad = Quad { first: self.first, place, cell, mask: u32::MAX };
                         draw_one::<F, false>(self.steps.source, self.visibility, quad);
