@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 use clap::Args;
 
 use super::choices::{AccelerationChoice, pixels};
-use super::{CliError, print, print_json, printable};
-use crate::source::Source;
+use super::{CliError, call, print, print_json, printable, progress};
 use crate::study::job::Request;
 use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
 
@@ -31,7 +30,7 @@ pub struct PlanArguments {
     /// tau_recog of the full budget [default: 8]
     #[arg(long, value_name = "FRAMES")]
     recog: Option<u32>,
-    /// tau_prop of the full budget [default: the next power of two of the frames]
+    /// tau_prop of the full budget [default: the next power of two of the frames that the source is meant for]
     #[arg(long, value_name = "FRAMES")]
     prop: Option<u32>,
     /// What is done with the accelerations of a capture
@@ -45,7 +44,7 @@ pub struct PlanArguments {
 impl PlanArguments {
     /// Makes the plan.
     pub fn run(&self) -> Result<(), CliError> {
-        let source = Source::open(&self.source, &self.acceleration.into()).map_err(CliError::unusable)?;
+        let source = call::open(&self.source, self.acceleration)?;
         let request = Request {
             frames: self.frames,
             extent: self.extent,
@@ -55,11 +54,14 @@ impl PlanArguments {
             ..Request::default()
         };
         let tighter = self.tighter.unwrap_or(self.max_error / 4.0);
-        let planning = plan::plan(&source, &request, self.max_error, tighter).map_err(|error| match error {
+        let bar = progress::bar(plan::PIECES, &printable(source.name()));
+        let goals = [self.max_error, tighter];
+        let planning = plan::plan(&source, &request, goals, || bar.inc(1)).map_err(|error| match error {
             PlanError::Engine(_) => CliError::Failed(error.to_string()),
             _ => CliError::unusable(error),
         })?;
-        if self.json { print_json(&planning) } else { print(&text(&planning)) }
+        bar.finish_and_clear();
+        if self.json { print_json("plan", &planning) } else { print(&text(&planning)) }
     }
 }
 
@@ -99,14 +101,20 @@ fn text(planning: &Planning) -> String {
     row("measured px", worst(&full.measured), &|plan| worst(&plan.measured));
     row("fields clamped", full.measured.saturated.to_string(), &|plan| plan.measured.saturated.to_string());
     row("frame us", format!("{:.0}", full.measured.frame_us), &|plan| format!("{:.0}", plan.measured.frame_us));
-    row("time saved", String::new(), &|plan| {
-        format!("{:.0} %", 100.0 * (1.0 - plan.measured.frame_us / full.measured.frame_us.max(f64::MIN_POSITIVE)))
+    let between = |[low, high]: [f64; 2]| format!("{low:.0} to {high:.0}");
+    row("  of all rounds", between(full.measured.frame_us_range), &|plan| between(plan.measured.frame_us_range));
+    let saved = |ratio: f64| 100.0 * (1.0 - ratio);
+    row("time saved %", String::new(), &|plan| format!("{:.0}", saved(plan.measured.x_full)));
+    row("  of all rounds", String::new(), &|plan| {
+        let [low, high] = plan.measured.x_full_range;
+        between([saved(high), saved(low)])
     });
     text.push('\n');
     for reason in &planning.plan.reasons {
         let _ = writeln!(text, "- {reason}");
     }
-    text.push_str("Motion bits: position fraction, velocity integer+fraction, acceleration integer+fraction. Time: budgets chosen at run time.\n\n");
+    text.push_str("Motion bits: position fraction, velocity integer+fraction, acceleration integer+fraction. Time: budgets chosen at run time, the median of rounds in which all \
+                   take turns, and their range.\n\n");
     text.push_str(planning.plan.code.trim_end());
     text
 }

@@ -45,6 +45,6 @@ impl Stability {
             rounding: self.rounding.map(Rounding::from),
             cases: self.cases.clone(),
         };
-        drive(&request, &[()], &Publication { out: Some(self.out.clone()), json: self.json })
+        drive(&request, &[()], &Publication::to(Some(&self.out), self.json))
     }
 }

@@ -11,11 +11,13 @@ pub mod report;
 mod run;
 mod world;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use galpix_core::objects::Limits;
 use galpix_core::{Bits, Demand};
 
+pub use columns::LEGEND;
 pub use pinned::PinnedReport;
 use report::{GraftReport, StrategyReport};
 use run::{Deliver, Strategy};
@@ -87,7 +89,7 @@ pub enum GraftsError {
 }
 
 /// A scene as it was compared.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct Seen {
     /// Its figures.
     #[serde(flatten)]
@@ -102,6 +104,7 @@ impl Study for Plan {
     type Report = Seen;
     type Extra = NoExtra;
 
+    const NAME: &'static str = "graft";
     const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
@@ -138,7 +141,7 @@ impl Study for Plan {
 
     /// Returns the figures of the one scene, without anything around them.
     fn json(&self, document: &super::Document<NoExtra, Seen>) -> serde_json::Result<String> {
-        serde_json::to_string_pretty(&document.sources.first().map(|seen| &seen.report))
+        serde_json::to_string_pretty(&document.sources.first().map(|seen| document.headed(&seen.report)))
     }
 
     fn files(&self, document: &super::Document<NoExtra, Seen>) -> Result<Vec<File>, StudyError> {
