@@ -3,6 +3,7 @@
 mod budget;
 mod call;
 mod choices;
+mod compare;
 mod ddoc;
 mod demo;
 mod describe;
@@ -87,6 +88,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Two runs side by side, as their JSON says: two budgets, two fills, two versions
+    Compare(compare::Compare),
     /// Error against run time over budgets, fields, roundings and fill modes: tables, plots, the Pareto front
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
@@ -130,6 +133,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Compare(compare) => compare.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
         Command::Layers(layers) => layers.run(),

@@ -132,7 +132,7 @@ mod tests {
             fs::write(folder.path().join(name), bytes).expect("written");
         }
         assert_eq!(run(folder.path(), "a", 2).expect("written"), 2);
-        assert_eq!(names(folder.path()), ["0000.png", "0001.png", "0002.png", "00003.png", "0009.png", "notes.txt"]);
+        assert_eq!(names(folder.path()), ["0000.png", "00003.png", "0001.png", "0002.png", "0009.png", "notes.txt"]);
     }
 
     #[test]

@@ -10,6 +10,7 @@
 //! [`ink`], [`job`], [`run`], [`story`] and [`timing`].
 
 pub mod cells;
+pub mod compare;
 pub mod crops;
 pub mod ddoc;
 pub mod demo;

@@ -34,6 +34,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
             assert!(document.get(key.as_str().expect("a key")).is_some(), "{kind}: {key}");
         }
     }
+    done(folder.path(), &["schema", "compare"]);
     done(folder.path(), &["schema", "demo"]);
     done(folder.path(), &["schema", "send"]);
     done(folder.path(), &["schema", "failure"]);

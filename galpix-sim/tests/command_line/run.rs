@@ -87,6 +87,27 @@ fn run_as_json_is_one_document_and_writes_the_frames() {
     assert_frames(&folder.path().join("galpix-out/still"), 24, (192, 144));
 }
 
+#[test]
+fn two_runs_are_compared_frame_by_frame() {
+    let folder = folder();
+    for fill in ["hold", "extend"] {
+        let printed = done(folder.path(), &["run", "crossing", "--frames", "3", "--fill", fill, "--json"]);
+        std::fs::write(folder.path().join(format!("{fill}.json")), printed).unwrap();
+    }
+    let text = done(folder.path(), &["compare", "hold.json", "extend.json"]);
+    assert_eq!(text.lines().last(), Some("galpix-out/compare/compare.html"));
+    assert!(text.contains("fill: \"hold\" in A, \"extend\" in B"), "{text}");
+    let written = folder.path().join("galpix-out/compare");
+    assert_eq!(entries(&written), ["compare.csv", "compare.html"].map(String::from).into());
+    let comparison = json(folder.path(), &["compare", "hold.json", "extend.json", "--json"]);
+    assert_eq!((&comparison["kind"], comparison["frames"].as_array().unwrap().len()), (&"compare".into(), 3));
+    let [hold, extend] = ["first", "second"].map(|run| comparison["means"][run][0].as_f64().unwrap());
+    assert!(extend > hold, "{hold} {extend}");
+    refused(folder.path(), &["compare", "hold.json", "nothing.json"], &["nothing.json", "correct the path"]);
+    std::fs::write(folder.path().join("scenes.json"), done(folder.path(), &["scenes", "--json"])).unwrap();
+    refused(folder.path(), &["compare", "hold.json", "scenes.json"], &["scenes.json", "galpix run SOURCE --json"]);
+}
+
 /// Without `--json` a run leaves its page, with a film and where the error is seen, and its figures.
 #[test]
 fn run_writes_a_page_and_its_figures() {

@@ -28,6 +28,10 @@ fn quality(story: &Story) -> Markup {
         line(story, "galpix", Ink::Galpix, Stroke::Solid, |row| row.measures.psnr_db),
     ];
     let mut remark = "Likeness to the truth: higher is better.".to_owned();
+    // A likeness of what is left says little without how much that is.
+    if let Some(missing) = story.rows.iter().rev().find_map(|row| row.measures.missing_percent) {
+        remark += &format!(" In the last frame {:.1} % of the cells are reached.", 100.0 - missing);
+    }
     let capped = |line: &Line| line.points.iter().any(|&(_, value)| value.is_some_and(|value| value >= PSNR_CAP_DB));
     if lines.iter().any(capped) {
         remark += " Identical pictures are drawn at the upper end.";

@@ -201,7 +201,6 @@ fn gain(gain_db: Option<f64>, widest: f64) -> Markup {
     let class = if gain < 0.0 { "bar poor" } else { "bar good" };
     html! {
         i class=(class) { i style=(format!("width:{share:.0}%")) {} }
-        (signed(Some(gain), 1))
-        small { "dB" }
+        span.gain { (signed(Some(gain), 1)) small { "dB" } }
     }
 }

@@ -29,7 +29,7 @@ pub fn section(index: usize, story: &Story) -> Markup {
             @if let Some(certificate) = &story.certificate { (promise(certificate, &Summary::of(story))) }
             (figures(story))
             @if let Some(heat) = &story.heat {
-                h3 { "FLIP, pixel by pixel, of frame " (heat.frame) }
+                h3.over { "FLIP, pixel by pixel, of frame " (heat.frame) }
                 p.remark { "Black: no difference is seen. Red, orange, white: ever more is." }
                 div.crops { (picture(&heat.picture, &format!("{}: FLIP of each pixel", story.name), "FLIP")) }
             }

@@ -237,7 +237,11 @@ fn a_summary_is_of_the_frames_compared() {
     assert_eq!((summary.measures.psnr_inside_db, summary.measures.missing_percent), (Some(41.0), Some(10.0)));
     assert_eq!(summary.gain_db, Some(10.0));
     assert_eq!(summary.worst_px, Some(0.4)); // of all frames
-    assert_eq!((summary.bound_px, summary.standing), (Some(0.48), Some(Standing::Inside)), "of the frames run");
+    assert_eq!(
+        (summary.bound_px, summary.standing),
+        (Some(0.4 + 0.02 * 4.0), Some(Standing::Inside)),
+        "of these frames"
+    );
     assert_eq!(summary.truth_px, None);
     assert_eq!(summary.ns_per_galpixel, Some(2.5)); // median of 1, 2, 3, 4
     assert_eq!(Summary::of(&Story::default()), Summary::default());

@@ -29,6 +29,7 @@ pub use exact::Px;
 pub use page::html;
 pub use setting::{Law, Ranges, Setting, SettingError};
 pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
+pub use text::LEGEND;
 
 use super::run::BudgetReport;
 use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
