@@ -182,8 +182,17 @@ fn unparsed(error: &clap::Error) -> ExitCode {
         .collect();
     let reason = reason.join(" ");
     let reason = printable(reason.trim_start_matches("error: "));
+    let reason = PLAIN.iter().fold(reason, |reason, (rust, plain)| reason.replace(rust, plain));
     failed(&CliError::Unusable(format!("{reason}; `--help` lists what can be given")))
 }
+
+/// What Rust says of numbers that cannot be read, and what that means.
+const PLAIN: [(&str, &str); 4] = [
+    ("invalid digit found in string", "give a whole number, not below 0"),
+    ("cannot parse integer from empty string", "give a whole number"),
+    ("number too large to fit in target type", "that is too large"),
+    ("number too small to fit in target type", "that is too small"),
+];
 
 /// Whether nothing is said on standard error but what went wrong.
 static QUIET: AtomicBool = AtomicBool::new(false);

@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema as Derived};
 
 use super::document::Failure;
-use super::{CliError, budget, print, scenes};
+use super::{CliError, budget, print, scenes, vectors};
 use crate::send;
 use crate::study::{self, Headed, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
 
@@ -25,6 +25,7 @@ pub enum Kind {
     Stability,
     Send,
     Scenes,
+    Vectors,
     /// What a command prints that failed, whichever it was
     Failure,
 }
@@ -54,6 +55,7 @@ impl Schema {
             Kind::Stability => of::<Headed<'_, stability::Report>>(),
             Kind::Send => of::<Headed<'_, send::Report>>(),
             Kind::Scenes => of::<Headed<'_, scenes::List>>(),
+            Kind::Vectors => of::<Headed<'_, vectors::Written>>(),
             Kind::Failure => of::<Headed<'_, Failure>>(),
         };
         print(&serde_json::to_string_pretty(&schema).map_err(|error| CliError::Failed(error.to_string()))?)

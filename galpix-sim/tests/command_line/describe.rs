@@ -35,6 +35,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
         }
     }
     done(folder.path(), &["schema", "compare"]);
+    done(folder.path(), &["schema", "vectors"]);
     done(folder.path(), &["schema", "demo"]);
     done(folder.path(), &["schema", "send"]);
     done(folder.path(), &["schema", "failure"]);
@@ -46,6 +47,8 @@ fn errors_are_documents_where_json_was_asked_for() {
     let folder = folder();
     refused(folder.path(), &["run", "nowhere", "--json"], &["nowhere"]);
     refused(folder.path(), &["run", "still", "--frames", "0", "--json"], &["--frames"]);
+    let number = refused(folder.path(), &["run", "still", "--extent", "wide", "--json"], &["--extent", "whole number"]);
+    assert!(!number.contains("digit"), "{number}");
     refused(folder.path(), &["budget", "--prop", "1", "--json"], &["this budget cannot exist"]);
     assert!(entries(folder.path()).is_empty());
 }
