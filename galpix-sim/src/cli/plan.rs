@@ -13,6 +13,7 @@ use crate::output::html::{document, list};
 use crate::output::save::write_atomically;
 use crate::study::job::Request;
 use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
+use crate::study::timing::Noise;
 
 /// Arguments of `galpix plan`.
 #[derive(Debug, Args)]
@@ -130,6 +131,18 @@ const LEGEND: &str = "Motion bits: position fraction, velocity integer+fraction,
                       Certified and measured: from the second-order path, before the snap to a cell. Time: budgets chosen \
                       at run time, the median of rounds in which all take turns, and their range.";
 
+/// Returns a warning where the same frames took very different times.
+fn doubt(planning: &Planning) -> Option<String> {
+    let [low, high] = planning.full.measured.frame_us_range;
+    let spread = high / low.max(f64::MIN_POSITIVE);
+    (spread > Noise::DOUBTFUL).then(|| {
+        format!(
+            "The machine was noisy: the full budget took up to {spread:.2} times as long as at its fastest. Repeat this while \
+             nothing else runs."
+        )
+    })
+}
+
 fn text(planning: &Planning) -> String {
     let mut text = format!(
         "{}: {}x{}, {} frames\n\n",
@@ -144,6 +157,9 @@ fn text(planning: &Planning) -> String {
     text.push('\n');
     for reason in &planning.plan.reasons {
         let _ = writeln!(text, "- {reason}");
+    }
+    if let Some(doubt) = doubt(planning) {
+        let _ = writeln!(text, "{doubt}");
     }
     let _ = write!(text, "{LEGEND}\n\n{}", planning.plan.code.trim_end());
     text
@@ -164,11 +180,14 @@ fn page(planning: &Planning) -> String {
             div.wide {
                 table.rows {
                     thead { tr { @for head in heads(planning) { th { (head) } } } }
-                    tbody { @for row in rows(planning) { tr { @for cell in row { td { (cell.trim()) } } } } }
+                    tbody { @for row in rows(planning) { tr { @for (place, cell) in row.iter().enumerate() {
+                        td class=[(place == 0).then_some("word")] { (cell.trim()) }
+                    } } } }
                 }
             }
             p.remark { (LEGEND) }
             (list(&planning.plan.reasons))
+            @if let Some(doubt) = doubt(planning) { p.remark { (doubt) } }
             h3.over { "As Rust" }
             div.wide { pre { (planning.plan.code) } }
         }

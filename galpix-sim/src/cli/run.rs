@@ -55,6 +55,12 @@ impl Run {
                 out.display()
             ));
         }
+        // What tells of earlier frames: without `--json` it is written anew.
+        for name in [CSV, PAGE].into_iter().filter(|_| self.json && frames.again) {
+            if std::fs::remove_file(out.join(name)).is_ok() {
+                note(&format!("{name} of an earlier run removed from {}", out.display()));
+            }
+        }
         let bar = progress::bar(u64::from(job.frames), &printable(source.name()));
         let mut written = Ok(());
         let mut film = (!self.json).then(Film::default);
@@ -73,7 +79,7 @@ impl Run {
         let csv = column::csv(&columns(), report.frames.iter().copied());
         let csv = csv.map_err(|error| CliError::Failed(error.to_string()))?;
         let page = page(film.story(source.about(), &report, Vec::new()), &report);
-        for (name, text) in [("frames.csv", csv), ("report.html", page)] {
+        for (name, text) in [(CSV, csv), (PAGE, page)] {
             let path = out.join(name);
             call::spare(&self.source, [path.clone()])?;
             write_atomically(&path, text.as_bytes()).map_err(|error| CliError::unwritable(&path, &error))?;
@@ -82,6 +88,10 @@ impl Run {
         print(&table(&report))
     }
 }
+
+/// What is written beside the frames.
+const CSV: &str = "frames.csv";
+const PAGE: &str = "report.html";
 
 /// Returns the run as a page.
 fn page(story: Story, report: &RunReport) -> String {

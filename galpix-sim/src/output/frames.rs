@@ -32,6 +32,8 @@ pub enum FramesError {
 pub struct Frames {
     folder: PathBuf,
     source: String,
+    /// Whether galpix wrote frames there before.
+    pub again: bool,
 }
 
 impl Frames {
@@ -53,6 +55,7 @@ impl Frames {
         let unwritable = |error| FramesError::Unwritable { path: folder.to_owned(), error };
         std::fs::create_dir_all(folder).map_err(unwritable)?;
         tidy(folder);
+        let again = marks(&path(folder, 0)).is_some();
         let mut stale = Vec::new();
         for entry in std::fs::read_dir(folder).map_err(unwritable)? {
             let path = entry.map_err(unwritable)?.path();
@@ -66,7 +69,7 @@ impl Frames {
         for path in &stale {
             std::fs::remove_file(path).map_err(|error| FramesError::Unwritable { path: path.clone(), error })?;
         }
-        Ok((Self { folder: folder.to_owned(), source: source.to_owned() }, stale))
+        Ok((Self { folder: folder.to_owned(), source: source.to_owned(), again }, stale))
     }
 
     /// Writes a frame.

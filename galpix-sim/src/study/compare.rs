@@ -215,6 +215,7 @@ pub fn html(comparison: &Comparison) -> String {
         section.story {
             h2 { "How they differ" }
             @if differences.is_empty() { p { "Neither settings nor budget differ." } } @else { (page::list(&differences)) }
+            p.legend { (line_key("A", Ink::Hold, true)) (line_key("B", Ink::Galpix, false)) }
             div.plots { @for index in 0..MEASURES.len() { (plot(comparison, index)) } }
             (column::html("rows points", &columns(), &comparison.frames))
         }
@@ -234,11 +235,7 @@ fn plot(comparison: &Comparison, index: usize) -> Markup {
     ];
     let description = format!("{}: {title} of both runs over frames since the update", comparison.source);
     let drawing = svg(&Plot { description, lines, from_zero: index >= 2, cap: f64::INFINITY });
-    let legend = html! { (line_key("A", Ink::Hold, true)) (line_key("B", Ink::Galpix, false)) };
-    html! {
-        (page::plotted(title, drawing, "Over frames since the update."))
-        @if index == 0 { p.legend { (legend) } }
-    }
+    page::plotted(title, drawing, "Over frames since the update.")
 }
 
 #[cfg(test)]

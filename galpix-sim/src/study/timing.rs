@@ -79,7 +79,7 @@ pub struct Noise {
 
 impl Noise {
     /// The spread of copies from which on times are to be doubted.
-    const DOUBTFUL: f64 = 1.25;
+    pub const DOUBTFUL: f64 = 1.25;
 
     fn of(copies: impl Iterator<Item = Vec<f64>>) -> Option<Self> {
         let spreads = copies.filter_map(|times| {

@@ -41,13 +41,14 @@ fn frames_never_replace_what_they_are_made_of() {
 #[test]
 fn a_shorter_run_leaves_no_frames_of_a_longer_one_and_says_so() {
     let folder = folder();
-    done(folder.path(), &["run", "still", "--frames", "5", "--json"]);
+    done(folder.path(), &["run", "still", "--frames", "5"]);
     let output = output(folder.path(), &["run", "still", "--frames", "2", "--json"]);
     let said = text(&output.stderr);
     assert!(
         said.contains("3 frames of an earlier, longer run removed") && said.contains("0003.png to 0005.png"),
         "{said}"
     );
+    assert!(said.contains("report.html of an earlier run removed"), "{said}");
     let left = entries(&folder.path().join("galpix-out/still"));
     assert_eq!(left, ["0000.png", "0001.png", "0002.png"].map(String::from).into());
 }

@@ -91,22 +91,27 @@ fn promise(certificate: &CertificateLine, summary: &Summary) -> Markup {
         ),
         _ => "No galpixel of the update was left to measure.".to_owned(),
     };
+    // First what is seen: a promise of the arithmetic is none of it.
+    let first = leaves.map(|truth| {
+        format!(
+            "Galpixels are up to {} from the true motion here, which leaves the second-order path: no certificate covers that.",
+            px(truth)
+        )
+    });
     let truth = match (leaves, summary.truth_px) {
-        (Some(truth), _) => {
-            format!(
-                "But the true motion here leaves that path: galpixels are up to {} from it, and no certificate covers that.",
-                px(truth)
-            )
-        }
-        (None, Some(truth)) => format!("From the true motion they are at most {}.", px(truth)),
-        (None, None) => "The true motion is not known here.".to_owned(),
+        (Some(_), _) => String::new(),
+        (None, Some(truth)) => format!(" From the true motion they are at most {}.", px(truth)),
+        (None, None) => " The true motion is not known here.".to_owned(),
     };
     let class = if kept && leaves.is_none() { "good" } else { "poor" };
     html! {
         p class={ "promise " (class) } {
-            strong { (verdict) }
+            @match first {
+                Some(first) => { strong { (first) } " " (verdict) }
+                None => strong { (verdict) }
+            }
             " " (px(certificate.quantisation_px)) " from quantisation and " (px(certificate.drift_px))
-            " from rounding drift, in the worst case over all states. " (measured) " " (truth)
+            " from rounding drift, in the worst case over all states. " (measured) (truth)
             " The snap to a cell, at most half a pixel, stands apart."
         }
     }

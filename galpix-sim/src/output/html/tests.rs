@@ -201,7 +201,10 @@ fn what_no_certificate_covers_is_said_beside_the_promise() {
     let mut story = story("near-plane", 4);
     story.rows[3].truth_error_px = Some(22.3);
     let html = html(&report(vec![story.clone()]));
-    assert!(html.contains("<p class=\"promise poor\">") && html.contains("up to 22.3000\u{00A0}px from it"), "{html}");
+    assert!(
+        html.contains("<p class=\"promise poor\">") && html.contains("up to 22.3000\u{00A0}px from the true motion"),
+        "{html}"
+    );
     story.rows[3].truth_error_px = Some(0.45);
     let html = super::html(&report(vec![story]));
     assert!(html.contains("<p class=\"promise good\">") && html.contains("at most 0.4500\u{00A0}px."));
