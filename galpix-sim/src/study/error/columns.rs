@@ -184,10 +184,7 @@ fn errors<'r>() -> [Column<Row<'r>>; 11] {
             .csv("worst_px")
             .both("path px", 4)
             .means("the worst distance measured from the second-order path, in the frames looked at"),
-        Column::new(|row: &Row| row.summary(|all| all.mean_px))
-            .csv("mean_px")
-            .page("mean px", 4)
-            .means("the mean of the same"),
+        Column::new(|row: &Row| row.summary(|all| all.mean_px)).csv("mean_px"),
         Column::new(|row: &Row| row.summary(|all| all.truth_worst_px))
             .csv("truth_worst_px")
             .both("truth px", 4)
