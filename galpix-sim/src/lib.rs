@@ -19,6 +19,7 @@ pub mod picture;
 pub mod send;
 pub mod source;
 pub mod study;
+pub mod suggest;
 pub mod update;
 
 pub use galpix_vectors as vectors;

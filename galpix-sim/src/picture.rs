@@ -45,11 +45,19 @@ impl Picture {
 
     /// Returns the picture as an 8-bit PNG.
     pub fn png(&self) -> std::io::Result<Vec<u8>> {
+        self.png_with(&[])
+    }
+
+    /// Returns the same with texts, each with its keyword, for who reads more than pixels.
+    pub fn png_with(&self, texts: &[(&str, &str)]) -> std::io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::Fast);
+        for &(keyword, text) in texts {
+            encoder.add_text_chunk(keyword.to_owned(), text.to_owned())?;
+        }
         let mut writer = encoder.write_header()?;
         writer.write_image_data(self.bytes())?;
         writer.finish()?;

@@ -39,7 +39,7 @@ pub struct Sample {
 }
 
 /// How the depth of an update came about; decides the default threshold of the edge map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DepthKind {
     /// Metric distance along the optical axis, turned into inverse distance.
@@ -51,7 +51,7 @@ pub enum DepthKind {
 }
 
 /// How many samples the galpixmap has beyond the display on each side (Costella: "in the wings").
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default, serde::Serialize, schemars::JsonSchema)]
 pub struct Margin {
     /// Columns left of the display.
     pub left: usize,

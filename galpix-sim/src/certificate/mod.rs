@@ -17,6 +17,7 @@ mod tests;
 
 use galpix_core::Rounding;
 use galpix_core::record::Scale;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::engine::ScanOut;
@@ -24,7 +25,7 @@ use drift::Drift;
 pub use smallest::{Unreachable, smallest};
 
 /// The worst case after one frame, in pixels, by cause.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FrameBound {
     /// Frames since the update.
     pub frame: u32,
@@ -49,7 +50,7 @@ impl FrameBound {
 }
 
 /// How a drift was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Every residue class was run from every phase: the bound is reached by a state.
@@ -59,7 +60,7 @@ pub enum Method {
 }
 
 /// The worst case over all states of a component, for all frames up to `tau_prop`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Certificate {
     /// Quantisation after `tau_prop` frames, in pixels.
     pub quantisation_px: f64,

@@ -4,6 +4,7 @@ use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use galpix_core::record::{Component, Shave};
 use galpix_core::{Bits, BudgetError, Demand, Layout, Record, Rounding};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choices::{RoundingChoice, pixels};
@@ -59,6 +60,7 @@ pub struct Budget {
     prop: u32,
     /// Fraction bits of positions in x and y, where tau_prop asks for less: sub-cell scan-out shows 4
     #[arg(long, value_name = "BITS", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=16))]
+    #[arg(conflicts_with = "max_error")]
     position_frac: u32,
     /// How positions are rounded
     #[arg(long, value_enum, value_name = "ROUNDING", default_value_t)]
@@ -114,8 +116,8 @@ fn shave(list: &[(ShavedField, u32)]) -> Shave {
     shave
 }
 
-#[derive(Serialize)]
-struct Printed {
+#[derive(Serialize, JsonSchema)]
+pub struct Printed {
     #[serde(flatten)]
     report: BudgetReport,
     used_bits_per_galpixel: u32,
@@ -133,22 +135,23 @@ struct Printed {
 
 /// How far in x and in y a galpixel is shown at most from where it should be, in pixels: the certificate's total and
 /// what scan-out adds.
-#[derive(Serialize)]
-struct DisplayedReport {
+#[derive(Serialize, JsonSchema)]
+pub struct DisplayedReport {
     nearest_px: f64,
     sub_cell_px: f64,
 }
 
-#[derive(Serialize)]
-struct RoundingReport {
+#[derive(Serialize, JsonSchema)]
+pub struct RoundingReport {
     rounding: &'static str,
     drift_px: f64,
     total_px: f64,
     keeps_one_pixel: bool,
 }
 
-#[derive(Serialize)]
-struct DepthReport {
+#[derive(Serialize, JsonSchema)]
+pub struct DepthReport {
+    moves: bool,
     stored_bits: u32,
     bins_bits: u32,
     position_frac_bits: u32,
@@ -162,7 +165,7 @@ impl Budget {
     /// Prints the budget.
     pub fn run(&self) -> Result<(), CliError> {
         let printed = self.printed()?;
-        if self.json { print_json(&printed) } else { print(&text(&printed)) }
+        if self.json { print_json("budget", &printed) } else { print(&text(&printed)) }
     }
 
     fn printed(&self) -> Result<Printed, CliError> {
@@ -170,6 +173,11 @@ impl Budget {
         let impossible = |error: BudgetError| CliError::Unusable(format!("this budget cannot exist: {error}"));
         let demand = Demand { extent: self.extent, recog: self.recog, prop: self.prop };
         let rounding = self.rounding.into();
+        if !self.shave_z.is_empty() && !layout.depth_motion {
+            let sentence =
+                format!("depth does not move in the layout {name}, so `--shave-z` shaves nothing: leave it out");
+            return Err(CliError::Unusable(sentence));
+        }
         let bits = if layout.acceleration { Bits::derive(demand) } else { Bits::derive_without_acceleration(demand) };
         let bits = finer(bits.map_err(impossible)?, self.position_frac);
         let plane: Component = match self.max_error {
@@ -196,6 +204,7 @@ impl Budget {
             layout: name,
             rounding: rounding.name(),
             depth: DepthReport {
+                moves: layout.depth_motion,
                 stored_bits: u32::from(record.depth().bits),
                 bins_bits: bits.depth_int,
                 position_frac_bits: record.scales[2].position_frac,
@@ -219,17 +228,22 @@ impl Budget {
 fn text(printed: &Printed) -> String {
     let report = &printed.report;
     let certificate = &printed.certificate;
-    let rows = [
-        ("position, fraction", report.position_frac_bits.to_string(), "(11)"),
-        ("velocity, integer with sign", report.velocity_int_bits.to_string(), "(8)"),
-        ("velocity, fraction", report.velocity_frac_bits.to_string(), "(13)"),
-        ("acceleration, integer with sign", report.acceleration_int_bits.to_string(), "(9)"),
-        ("acceleration, fraction", report.acceleration_frac_bits.to_string(), "(12)"),
-        ("motion, bits a component", report.motion_bits_per_component.to_string(), "(14)"),
-        ("motion, bytes a galpixel", report.motion_bytes_per_galpixel.to_string(), "three components"),
-        ("stored, bytes a galpixel", report.stored_bytes_per_galpixel.to_string(), printed.layout),
-        ("of these bits in use", printed.used_bits_per_galpixel.to_string(), ""),
-    ];
+    let mut rows = vec![("position, fraction", report.position_frac_bits.to_string(), "(11)")];
+    // Without acceleration a galpixel is at most a quarter as fast, and its velocity as fine as its position.
+    let accelerates = report.acceleration_int_bits > 0;
+    let [fastest, slowest] = if accelerates { ["(8)", "(13)"] } else { ["(8) less 2: no acceleration", "as (11)"] };
+    rows.push(("velocity, integer with sign", report.velocity_int_bits.to_string(), fastest));
+    rows.push(("velocity, fraction", report.velocity_frac_bits.to_string(), slowest));
+    if accelerates {
+        rows.push(("acceleration, integer with sign", report.acceleration_int_bits.to_string(), "(9)"));
+        rows.push(("acceleration, fraction", report.acceleration_frac_bits.to_string(), "(12)"));
+    }
+    let sum = if accelerates { "(14)" } else { "position, velocity" };
+    rows.push(("motion, bits a component", report.motion_bits_per_component.to_string(), sum));
+    let components = if printed.depth.moves { "x, y and z" } else { "x and y" };
+    rows.push(("motion, bytes a galpixel", report.motion_bytes_per_galpixel.to_string(), components));
+    rows.push(("stored, bytes a galpixel", report.stored_bytes_per_galpixel.to_string(), printed.layout));
+    rows.push(("of these bits in use", printed.used_bits_per_galpixel.to_string(), ""));
     let mut text = format!(
         "D = {} px, tau_recog = {} frames, tau_prop = {} frames, x and y:\n",
         report.extent, report.recog, report.prop

@@ -138,7 +138,7 @@ impl From<GammaChoice> for Gamma {
 }
 
 /// How push-pull and metamer inpaint.
-#[derive(Clone, Debug, Default, Args)]
+#[derive(Clone, Copy, Debug, Default, Args)]
 pub struct Inpainting {
     /// For push-pull and metamer: the power of the share that is known, by which partly known areas count [default: 0
     /// for push-pull, 1/2 for metamer]
@@ -150,6 +150,22 @@ pub struct Inpainting {
 }
 
 impl Inpainting {
+    /// Refuses what asks for another inpainting where none of the fills inpaints.
+    pub fn check(&self, fills: impl IntoIterator<Item = Fill>) -> Result<(), CliError> {
+        let given = self.gamma.map(|_| "--gamma").or(self.fovea.map(|_| "--fovea"));
+        let fills: Vec<Fill> = fills.into_iter().collect();
+        match given {
+            Some(option) if fills.iter().all(|fill| fill.inpaint().is_none()) => {
+                let names: Vec<&str> = fills.iter().map(|fill| fill.name()).collect();
+                let names = names.join(", ");
+                Err(CliError::Unusable(format!(
+                    "`{option}` is for push-pull and metamer, and does nothing for {names}"
+                )))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Returns a fill as these arguments want it; a fill without inpainting is left as it is.
     pub fn of(&self, fill: Fill) -> Fill {
         match fill {
@@ -164,7 +180,7 @@ impl Inpainting {
 }
 
 /// What is done with accelerations of captures.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum AccelerationChoice {
     /// As the capture gives them
     #[default]
@@ -213,7 +229,8 @@ pub struct Extrapolation {
     /// tau_recog, the shortest recognisable time in frames [default: 8]
     #[arg(long, value_name = "FRAMES")]
     pub recog: Option<u32>,
-    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames]
+    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames that the source
+    /// is meant for, whatever --frames asks for]
     #[arg(long, value_name = "FRAMES")]
     pub prop: Option<u32>,
     /// Fraction bits of positions, where tau_prop asks for less: sub-cell scan-out shows 4
@@ -260,6 +277,19 @@ impl Extrapolation {
                 return Err(CliError::unusable(sentence));
             }
         }
+        self.inpainting.check([fill])?;
+        let scan_out = self.scan_out.map_or(scheme.scan_out(), ScanOut::from);
+        // Stationary sources and resampling tell surfaces apart whatever is put into holes.
+        let uses_edges = scheme == Scheme::Source || scan_out == ScanOut::SubCell || fill.mode().uses_edges();
+        for (option, given, used) in [
+            ("--reach", self.reach != 1, fill.mode().uses_edges()),
+            ("--edge-threshold", self.edge_threshold.is_some(), uses_edges),
+        ] {
+            if given && !used {
+                let fill = fill.name();
+                return Err(CliError::Unusable(format!("`{option}` does nothing for `--fill {fill}`: leave it out")));
+            }
+        }
         Ok(Request {
             frames: self.frames,
             extent: self.extent,
@@ -271,7 +301,7 @@ impl Extrapolation {
             reach: self.reach,
             edge_threshold: self.edge_threshold,
             scheme,
-            scan_out: self.scan_out.map_or(scheme.scan_out(), ScanOut::from),
+            scan_out,
             perceptual: true,
             strategy: Strategy::ONE,
         })

@@ -11,6 +11,7 @@ use crate::study::ddoc::{self, Request, SIZES};
 
 /// Arguments of `galpix ddoc`.
 #[derive(Debug, Args)]
+#[command(after_long_help = ddoc::LEGEND)]
 pub struct Ddoc {
     /// Built-in scenes, the worlds portal and knot, or paths of OBJ files [default: pillars, sphere, crossing,
     /// near-plane, portal, knot]
@@ -60,6 +61,7 @@ impl Ddoc {
         };
         let worlds =
             names.iter().map(|name| ddoc::open(name)).collect::<Result<Vec<_>, _>>().map_err(CliError::unusable)?;
-        drive(&request, &worlds, &Publication::usual(self.out.as_ref(), self.json, "ddoc"))
+        let to = Publication::usual(self.out.as_ref(), self.json, "ddoc").reading(&self.worlds);
+        drive(&request, &worlds, &to)
     }
 }

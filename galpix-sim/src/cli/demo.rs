@@ -7,22 +7,26 @@ use clap::Args;
 use super::choices::Extrapolation;
 use super::drive::{Publication, drive};
 use super::{CliError, call};
-use crate::study::demo::Plan;
+use crate::study::demo::{self, Plan};
 use crate::study::job::Request;
 
 /// Arguments of `galpix demo`.
 #[derive(Debug, Args)]
+#[command(after_long_help = demo::legend())]
 pub struct Demo {
     #[command(flatten)]
     extrapolation: Extrapolation,
-    /// Folder for the report
-    #[arg(long, value_name = "DIR", default_value = "galpix-out")]
-    out: PathBuf,
+    /// Folder for the report [default: galpix-out; with --json nothing is written without it]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Default for Demo {
     fn default() -> Self {
-        Self { extrapolation: Extrapolation { reach: 1, ..Extrapolation::default() }, out: PathBuf::from("galpix-out") }
+        Self { extrapolation: Extrapolation { reach: 1, ..Extrapolation::default() }, out: None, json: false }
     }
 }
 
@@ -30,6 +34,8 @@ impl Demo {
     /// Runs the scenes.
     pub fn run(&self) -> Result<(), CliError> {
         let plan = Plan { request: Request { perceptual: false, ..self.extrapolation.request()? } };
-        drive(&plan, &[call::all()], &Publication { out: Some(self.out.clone()), json: false })
+        let sources = call::all(self.extrapolation.acceleration);
+        let out = self.out.clone().or((!self.json).then(|| PathBuf::from("galpix-out")));
+        drive(&plan, &[sources], &Publication::to(out.as_ref(), self.json))
     }
 }

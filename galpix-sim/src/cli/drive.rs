@@ -4,10 +4,10 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::call::{command, machine, writable};
+use super::call::{command, machine, spare, writable};
 use super::{CliError, note, print, printable, printable_lines, progress};
 use crate::output::save::write_atomically;
-use crate::study::{Document, File, Found, PathPrinted, Silent, Stage, Study, StudyError, Work};
+use crate::study::{Document, File, Found, PathPrinted, SCHEMA, Silent, Stage, Study, StudyError, Work};
 
 impl From<StudyError> for CliError {
     fn from(error: StudyError) -> Self {
@@ -24,6 +24,8 @@ pub struct Publication {
     pub out: Option<PathBuf>,
     /// Whether JSON is printed in place of tables.
     pub json: bool,
+    /// What is read, as it was given: no file of it is replaced.
+    pub reads: Vec<String>,
 }
 
 impl Publication {
@@ -31,7 +33,17 @@ impl Publication {
     /// printed.
     pub fn usual(out: Option<&PathBuf>, json: bool, name: &str) -> Self {
         let usual = (!json).then(|| Path::new("galpix-out").join(name));
-        Self { out: out.cloned().or(usual), json }
+        Self::to(out.cloned().or(usual).as_ref(), json)
+    }
+
+    /// Puts files into this folder, if any.
+    pub fn to(out: Option<&PathBuf>, json: bool) -> Self {
+        Self { out: out.cloned(), json, reads: Vec::new() }
+    }
+
+    /// Returns the same, for sources that are read from there.
+    pub fn reading(self, given: &[String]) -> Self {
+        Self { reads: given.to_vec(), ..self }
     }
 }
 
@@ -41,6 +53,8 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
     let jobs = sources.iter().map(|source| study.resolve(source)).collect::<Result<Vec<_>, _>>()?;
     if let Some(out) = &to.out {
         writable(out)?;
+        let files = ["csv", "json", "html"].map(|kind| out.join(format!("{}.{kind}", S::NAME)));
+        to.reads.iter().try_for_each(|given| spare(given, files.clone()))?;
     }
     if let (Some(head), false) = (study.head(), to.json) {
         print(&head)?;
@@ -63,6 +77,8 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
         }
     }
     let document = Document {
+        schema: SCHEMA,
+        kind: S::NAME,
         version: env!("CARGO_PKG_VERSION"),
         command: command(),
         machine: machine(),
@@ -87,6 +103,7 @@ fn one<S: Study>(study: &S, job: &S::Job<'_>, name: &str, to: &Publication) -> R
             bar.set_message(name.to_owned());
             bar.inc(1);
         }
+        Work::Note(text) => bar.suspend(|| note(&printable(text))),
     };
     let found = study.study(job, &Stage { out: to.out.as_deref(), notify: &notify })?;
     bar.finish_and_clear();
@@ -98,6 +115,7 @@ fn publish<S: Study>(study: &S, document: &Document<S::Extra, S::Report>, to: &P
     let mut page = None;
     if let Some(out) = &to.out {
         let files = study.files(document)?;
+        to.reads.iter().try_for_each(|given| spare(given, files.iter().map(|(name, _)| out.join(name))))?;
         files.iter().try_for_each(|file| write(out, file))?;
         page = files.last().map(|(name, _)| out.join(name)).filter(|_| S::PATH != PathPrinted::Nowhere);
     }

@@ -11,8 +11,8 @@ use super::choices::{
 use super::drive::{Publication, drive};
 use super::{CliError, call};
 use crate::engine::fill::Fill;
-use crate::study::error::Plan;
 use crate::study::error::design::{Extent, Kept};
+use crate::study::error::{self, Plan};
 use crate::study::job::Request;
 
 /// Which fields a galpixel carries besides class and colour.
@@ -47,7 +47,7 @@ impl From<FieldChoice> for Kept {
 
 /// Arguments of `galpix error`.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, after_long_help = error::legend())]
 pub struct Error {
     /// Built-in scenes' names, or paths of a capture.toml or of its folder
     #[arg(required = true, value_name = "SOURCE")]
@@ -81,7 +81,8 @@ pub struct Error {
     /// tau_recog, the shortest recognisable time in frames [default: 8]
     #[arg(long, value_name = "FRAMES")]
     recog: Option<u32>,
-    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames]
+    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames that the source
+    /// is meant for, whatever --frames asks for]
     #[arg(long, value_name = "FRAMES")]
     prop: Option<u32>,
     /// Laplacian beyond which a cell is on an edge, as a part of the depth range [default: 1/64, without depth 1/128]
@@ -107,8 +108,10 @@ impl Error {
             let names: Vec<&str> = plan.fills.iter().map(|fill| fill.name()).collect();
             return Err(not_of_sources("--rungs", &names.join(",")));
         }
-        let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "error"))
+        self.inpainting.check(plan.fills.iter().copied())?;
+        let sources = call::sources(&self.sources, self.acceleration)?;
+        let to = Publication::usual(self.out.as_ref(), self.json, "error").reading(&self.sources);
+        drive(&plan, &sources, &to)
     }
 
     fn plan(&self) -> Plan {

@@ -7,10 +7,12 @@ use clap::Args;
 use super::drive::{Publication, drive};
 use super::{CliError, printable};
 use crate::source::scene;
-use crate::study::graft::Plan;
+use crate::study::graft::{self, Plan};
+use crate::suggest;
 
 /// Arguments of `galpix graft`.
 #[derive(Debug, Args)]
+#[command(after_long_help = graft::LEGEND)]
 pub struct Graft {
     /// A built-in scene's name
     #[arg(value_name = "SCENE", default_value = "hud")]
@@ -36,10 +38,11 @@ impl Graft {
     /// Compares the strategies.
     pub fn run(&self) -> Result<(), CliError> {
         let Some(scene) = scene::find(&self.scene) else {
+            let hint = suggest::hint(&self.scene, scene::all().iter().map(|scene| scene.name()));
             let name = printable(&self.scene);
-            return Err(CliError::unusable(format!("there is no scene `{name}`: `galpix scenes` lists them")));
+            return Err(CliError::unusable(format!("there is no scene `{name}`{hint}: `galpix scenes` lists them")));
         };
         let plan = Plan { frames: self.frames, global_every: self.global, objects_every: self.objects };
-        drive(&plan, &[scene], &Publication { out: self.out.clone(), json: self.json })
+        drive(&plan, &[scene], &Publication::to(self.out.as_ref(), self.json))
     }
 }

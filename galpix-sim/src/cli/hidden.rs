@@ -2,6 +2,7 @@
 
 use clap::{Args, ValueEnum};
 
+use super::CliError;
 use crate::engine::Scheme;
 use crate::source::hidden::{Arrangement, Kind, RADIUS, SEPARATION, Strategy};
 
@@ -37,10 +38,18 @@ impl HiddenArguments {
     /// Returns the strategy that these arguments mean in a scheme. In a map a surface that covers something is in a
     /// layer of its own, for what it passes in front of would be lost; stationary sources lose nothing, and what is
     /// seen stays one source.
-    pub fn strategy(&self, scheme: Scheme) -> Strategy {
+    ///
+    /// *Errors:* what does nothing for the kind.
+    pub fn strategy(&self, scheme: Scheme) -> Result<Strategy, CliError> {
+        if self.separation.is_some() && self.hidden != HiddenChoice::Second {
+            return Err(CliError::unusable("`--separation` is for `--hidden second`: add that, or leave it out"));
+        }
+        if self.uncut && self.hidden == HiddenChoice::None {
+            return Err(CliError::unusable("`--uncut` is for hidden samples: add `--hidden KIND`, or leave it out"));
+        }
         let separation = self.separation.unwrap_or(SEPARATION);
         let kind = match self.hidden {
-            HiddenChoice::None => return Strategy::ONE,
+            HiddenChoice::None => return Ok(Strategy::ONE),
             HiddenChoice::Second => Kind::Second { separation },
             HiddenChoice::Ddoc => Kind::Ddoc { radius: RADIUS },
             HiddenChoice::Unlimited => Kind::Unlimited,
@@ -49,7 +58,7 @@ impl HiddenArguments {
             Scheme::Map => Arrangement::Farther,
             Scheme::Source => Arrangement::Nearer,
         };
-        Strategy { kind, arrangement, culled: !self.uncut }
+        Ok(Strategy { kind, arrangement, culled: !self.uncut })
     }
 }
 

@@ -12,6 +12,7 @@ use crate::study::layers::{self, Plan};
 
 /// Arguments of `galpix layers`.
 #[derive(Debug, Args)]
+#[command(after_long_help = layers::legend())]
 pub struct LayersArguments {
     /// Built-in scenes' names, or paths of a capture.toml or of its folder [default: all scenes, and the capture
     /// marbles]
@@ -26,6 +27,10 @@ pub struct LayersArguments {
     /// How galpixels move: with source, layers are further sources
     #[arg(long, value_enum, value_name = "SCHEME", default_value = "source")]
     scheme: SchemeChoice,
+    /// tau_prop, the frames to survive without an update [default: the next power of two of the frames that the source
+    /// is meant for, whatever --frames asks for]
+    #[arg(long, value_name = "FRAMES")]
+    prop: Option<u32>,
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
@@ -41,9 +46,11 @@ pub struct LayersArguments {
 impl LayersArguments {
     /// Compares the strategies.
     pub fn run(&self) -> Result<(), CliError> {
-        let request = Request { frames: self.frames, ..Request::default() }.in_scheme(self.scheme.into());
+        let request =
+            Request { frames: self.frames, prop: self.prop, ..Request::default() }.in_scheme(self.scheme.into());
         let plan = Plan { request, strategies: layers::strategies(self.separation) };
-        let sources = call::sources(&self.sources, &self.acceleration.into())?;
-        drive(&plan, &sources, &Publication::usual(self.out.as_ref(), self.json, "layers"))
+        let sources = call::sources(&self.sources, self.acceleration)?;
+        let to = Publication::usual(self.out.as_ref(), self.json, "layers").reading(&self.sources);
+        drive(&plan, &sources, &to)
     }
 }

@@ -3,8 +3,11 @@
 mod budget;
 mod call;
 mod choices;
+mod compare;
 mod ddoc;
 mod demo;
+mod describe;
+mod document;
 mod drive;
 mod error;
 mod fills;
@@ -15,15 +18,23 @@ mod plan;
 mod progress;
 mod run;
 mod scenes;
+mod schema;
 mod send;
 mod stability;
 mod vectors;
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+
+use document::print_json;
+
+/// The exit code after an interruption, that of shells.
+const INTERRUPTED: i32 = 130;
+
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
@@ -41,6 +52,14 @@ impl CliError {
         Self::Unusable(reason.to_string())
     }
 
+    /// Returns the exit code of a command that fails like this.
+    const fn code(&self) -> u8 {
+        match self {
+            Self::Unusable(_) => 2,
+            Self::Failed(_) => 1,
+        }
+    }
+
     /// Creates a file or folder that cannot be written.
     fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Self {
         Self::Unusable(format!("{} cannot be written ({error}): choose another folder with --out", path.display()))
@@ -56,6 +75,9 @@ impl CliError {
     after_help = "Exit codes: 0 done, 2 unusable arguments or input, 1 anything else."
 )]
 struct Arguments {
+    /// Say nothing on standard error but what went wrong
+    #[arg(long, short, global = true)]
+    quiet: bool,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -66,6 +88,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Two runs side by side, as their JSON says: two budgets, two fills, two versions
+    Compare(compare::Compare),
     /// Error against run time over budgets, fields, roundings and fill modes: tables, plots, the Pareto front
     Error(error::Error),
     /// Every fill side by side: what each makes of the cells that the warp leaves open, and at what cost
@@ -84,10 +108,16 @@ enum Command {
     Stability(stability::Stability),
     /// Streams a scene or a capture as galpixels to a display controller
     Send(send::Send),
+    /// Prints the JSON schema of what a command prints with --json
+    Schema(schema::Schema),
     /// Lists the built-in scenes and what each of them stresses
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
     Vectors(vectors::Vectors),
+    /// Prints the completions of a shell
+    Completions(describe::Completions),
+    /// Prints the manual page, or writes one for each command
+    Man(describe::Man),
 }
 
 /// Parses the arguments, runs the command, and returns how it ended.
@@ -97,9 +127,13 @@ pub fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => return unparsed(&error),
     };
+    // Where signals cannot be handled, what they leave is removed by the next run.
+    let _ = ctrlc::set_handler(|| crate::output::save::leave(INTERRUPTED));
+    QUIET.store(arguments.quiet, Ordering::Relaxed);
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Compare(compare) => compare.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),
         Command::Layers(layers) => layers.run(),
@@ -109,24 +143,35 @@ pub fn main() -> ExitCode {
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),
         Command::Send(send) => send.run(),
+        Command::Schema(schema) => schema.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
+        Command::Completions(completions) => completions.run(),
+        Command::Man(man) => man.run(),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            note(&format!("galpix: {error}"));
-            ExitCode::from(if matches!(error, CliError::Unusable(_)) { 2 } else { 1 })
-        }
+        Err(error) => failed(&error),
     }
+}
+
+/// Says what went wrong, on standard error, and with `--json` as a document on standard output too.
+fn failed(error: &CliError) -> ExitCode {
+    complain(&format!("galpix: {error}"));
+    if std::env::args_os().any(|argument| argument == "--json") {
+        // Where standard output takes nothing, the sentence and the exit code are left.
+        let _ = document::print_error(error);
+    }
+    ExitCode::from(error.code())
 }
 
 /// Prints help or version if requested, or why the arguments cannot be used, in one sentence.
 fn unparsed(error: &clap::Error) -> ExitCode {
     if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) {
-        // A reader that has gone away is no failure.
-        let _ = error.print();
-        return ExitCode::SUCCESS;
+        return match printed(error.print()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => failed(&error),
+        };
     }
     let text = error.to_string();
     let reason: Vec<&str> = text
@@ -136,13 +181,36 @@ fn unparsed(error: &clap::Error) -> ExitCode {
         .filter(|line| !line.is_empty())
         .collect();
     let reason = reason.join(" ");
-    note(&format!("galpix: {}; `--help` lists what can be given", printable(reason.trim_start_matches("error: "))));
-    ExitCode::from(2)
+    let reason = printable(reason.trim_start_matches("error: "));
+    let reason = PLAIN.iter().fold(reason, |reason, (rust, plain)| reason.replace(rust, plain));
+    failed(&CliError::Unusable(format!("{reason}; `--help` lists what can be given")))
 }
 
+/// What Rust says of numbers that cannot be read, and what that means.
+const PLAIN: [(&str, &str); 4] = [
+    ("invalid digit found in string", "give a whole number, not below 0"),
+    ("cannot parse integer from empty string", "give a whole number"),
+    ("number too large to fit in target type", "that is too large"),
+    ("number too small to fit in target type", "that is too small"),
+];
+
+/// Whether nothing is said on standard error but what went wrong.
+static QUIET: AtomicBool = AtomicBool::new(false);
+
 /// Writes a line on standard error. A reader that has gone away is no failure.
+fn complain(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Writes a line on standard error, unless that is to be quiet.
 fn note(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{text}");
+    if !quiet() {
+        complain(text);
+    }
+}
+
+fn quiet() -> bool {
+    QUIET.load(Ordering::Relaxed)
 }
 
 /// Returns a text from outside without the characters that command a terminal.
@@ -157,16 +225,15 @@ fn printable_lines(text: &str) -> String {
 
 /// Prints a line, or several, on standard output. A reader that has gone away is no failure.
 fn print(text: &str) -> Result<(), CliError> {
-    match writeln!(std::io::stdout(), "{text}") {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+    printed(writeln!(io::stdout(), "{text}"))
+}
+
+/// Returns how it ended that something was written to standard output.
+fn printed(result: io::Result<()>) -> Result<(), CliError> {
+    match result.and_then(|()| io::stdout().flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(CliError::Failed(format!("standard output cannot be written: {error}")))
         }
         _ => Ok(()),
     }
-}
-
-/// Prints one JSON document on standard output.
-fn print_json(value: &impl serde::Serialize) -> Result<(), CliError> {
-    let text = serde_json::to_string_pretty(value).map_err(|error| CliError::Failed(error.to_string()))?;
-    print(&text)
 }

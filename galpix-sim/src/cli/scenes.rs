@@ -1,6 +1,7 @@
 //! `galpix scenes`.
 
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CliError, print, print_json};
@@ -14,7 +15,12 @@ pub struct Scenes {
     json: bool,
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
+pub struct List {
+    scenes: Vec<SceneLine>,
+}
+
+#[derive(Serialize, JsonSchema)]
 struct SceneLine {
     name: &'static str,
     about: &'static str,
@@ -27,7 +33,7 @@ struct SceneLine {
 impl Scenes {
     /// Lists the scenes.
     pub fn run(&self) -> Result<(), CliError> {
-        let lines: Vec<SceneLine> = scene::all()
+        let scenes: Vec<SceneLine> = scene::all()
             .iter()
             .map(|scene| SceneLine {
                 name: scene.name(),
@@ -39,9 +45,9 @@ impl Scenes {
             })
             .collect();
         if self.json {
-            return print_json(&lines);
+            return print_json("scenes", &List { scenes });
         }
-        for line in lines {
+        for line in scenes {
             let order = if line.second_order { "second order" } else { "beyond second order" };
             print(&format!("{:<11} {:>2} frames, {order:<19}  {}", line.name, line.frames, line.about))?;
         }

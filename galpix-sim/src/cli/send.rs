@@ -41,9 +41,9 @@ pub struct Send {
     /// Updates to send; a capture has one
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65_535))]
     updates: u32,
-    /// Frames of the device between two updates
-    #[arg(long, value_name = "FRAMES", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    every: u32,
+    /// Frames of the device between two updates [default: 8]
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    every: Option<u32>,
     /// Leave the device's built-in scene on, and send into it; else only what is sent is seen
     #[arg(long)]
     over_scene: bool,
@@ -67,6 +67,12 @@ impl Send {
             ));
         }
         let Self { updates, every, over_scene, .. } = *self;
+        if every.is_some() && updates == 1 {
+            return Err(CliError::unusable(
+                "`--every` is for more than one update: add `--updates N`, or leave it out",
+            ));
+        }
+        let every = every.unwrap_or(8);
         let request = Request { panel: self.panel.map(Description::from), updates, every, over_scene };
         // Before a file is made.
         request.check(&source, &self.to).map_err(|error| unusable(&error))?;
@@ -80,7 +86,7 @@ impl Send {
         let report = report.map_err(|error| {
             if error.unusable() { unusable(&error) } else { CliError::Failed(printable(&error.to_string())) }
         })?;
-        if self.json { print_json(&report) } else { print(&text(&report)) }
+        if self.json { print_json("send", &report) } else { print(&text(&report)) }
     }
 }
 

@@ -8,11 +8,11 @@ use galpix_core::{Demand, Rounding};
 use super::CliError;
 use super::choices::RoundingChoice;
 use super::drive::{Publication, drive};
-use crate::study::stability::Request;
+use crate::study::stability::{self, Request};
 
 /// Arguments of `galpix stability`.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true)]
+#[command(allow_negative_numbers = true, after_long_help = stability::LEGEND)]
 pub struct Stability {
     /// Cases to run [default: all of them]
     #[arg(value_name = "CASE")]
@@ -45,6 +45,6 @@ impl Stability {
             rounding: self.rounding.map(Rounding::from),
             cases: self.cases.clone(),
         };
-        drive(&request, &[()], &Publication { out: Some(self.out.clone()), json: self.json })
+        drive(&request, &[()], &Publication::to(Some(&self.out), self.json))
     }
 }

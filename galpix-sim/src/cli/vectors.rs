@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use schemars::JsonSchema;
+use serde::Serialize;
 
-use super::{CliError, note, print};
+use super::{CliError, note, print, print_json};
 use crate::output::html::write_atomically;
 use crate::vectors;
 
@@ -17,6 +19,24 @@ pub struct Vectors {
     /// What the random maps are drawn with; the hashes that the project keeps are those of 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was written.
+#[derive(Serialize, JsonSchema)]
+pub struct Written {
+    /// The manifest, which lists all files with their hashes.
+    manifest: String,
+    /// What the random maps were drawn with.
+    seed: u64,
+    /// Cases.
+    cases: usize,
+    /// Their frames.
+    frames: usize,
+    /// Their files.
+    files: usize,
 }
 
 impl Vectors {
@@ -32,7 +52,12 @@ impl Vectors {
         let manifest = vectors::write(self.seed, &cases, save)?;
         let files: usize = manifest.cases.iter().map(|case| case.files.len()).sum();
         let frames: usize = manifest.cases.iter().map(|case| case.frames.len()).sum();
-        note(&format!("{} cases, {frames} frames, {files} files", manifest.cases.len()));
-        print(&self.out.join("manifest.json").display().to_string())
+        let cases = manifest.cases.len();
+        note(&format!("{cases} cases, {frames} frames, {files} files"));
+        let manifest = self.out.join("manifest.json").display().to_string();
+        if self.json {
+            return print_json("vectors", &Written { manifest, seed: self.seed, cases, frames, files });
+        }
+        print(&manifest)
     }
 }

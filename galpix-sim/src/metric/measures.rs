@@ -1,11 +1,12 @@
 //! The measures that every table and every page has of a run, in one form.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::stats;
 
 /// How far a frame is from the truth, or the frames of a run: means over those whose truth is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Measures {
     /// PSNR of the whole picture, decibels.
     pub psnr_db: Option<f64>,

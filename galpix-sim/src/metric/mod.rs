@@ -86,15 +86,7 @@ pub fn ssim(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
 /// mean.
 #[must_use]
 pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<f64> {
-    comparable(shown, truth, counted)?;
-    let (width, height) = (u32::try_from(truth.width).ok()?, u32::try_from(truth.height).ok()?);
-    width.checked_mul(height)?.checked_mul(3)?; // nv-flip multiplies in 32 bits
-    let shown = with_truth_where_not_counted(shown, truth, counted);
-    let map = nv_flip::flip(
-        FlipImageRgb8::with_data(width, height, truth.bytes()),
-        FlipImageRgb8::with_data(width, height, shown.bytes()),
-        PIXELS_PER_DEGREE,
-    );
+    let map = flip_of(shown, truth, counted)?;
     let (mut sum, mut cells) = (0.0, 0_u64);
     for (cell, error) in map.to_vec().into_iter().enumerate() {
         if counts(counted, cell) {
@@ -103,6 +95,27 @@ pub fn flip(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Optio
         }
     }
     Some(sum / cells as f64)
+}
+
+/// Returns FLIP of each pixel as a colour of the map that FLIP comes with, from black for equals; `None` as [`flip`].
+#[must_use]
+pub fn flip_map(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<Picture> {
+    let map = flip_of(shown, truth, counted)?.apply_color_lut(&nv_flip::magma_lut());
+    let pixels = map.to_vec().chunks_exact(3).map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect();
+    Some(Picture { width: truth.width, height: truth.height, pixels })
+}
+
+/// Returns FLIP of each pixel.
+fn flip_of(shown: &Picture, truth: &Picture, counted: Option<&[bool]>) -> Option<nv_flip::FlipImageFloat> {
+    comparable(shown, truth, counted)?;
+    let (width, height) = (u32::try_from(truth.width).ok()?, u32::try_from(truth.height).ok()?);
+    width.checked_mul(height)?.checked_mul(3)?; // nv-flip multiplies in 32 bits
+    let shown = with_truth_where_not_counted(shown, truth, counted);
+    Some(nv_flip::flip(
+        FlipImageRgb8::with_data(width, height, truth.bytes()),
+        FlipImageRgb8::with_data(width, height, shown.bytes()),
+        PIXELS_PER_DEGREE,
+    ))
 }
 
 /// SSIMULACRA2 (Sneyers) of whole pictures: 100 for identical ones, 90 and above is hard to distinguish, 30 and below

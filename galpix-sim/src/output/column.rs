@@ -101,13 +101,14 @@ pub struct Column<R> {
     terminal: Option<Heading>,
     page: Option<Heading>,
     look: Look,
+    means: &'static str,
 }
 
 impl<R> Column<R> {
     /// Makes a column that is shown nowhere yet.
     #[must_use]
     pub fn new(get: fn(&R) -> Value) -> Self {
-        Self { get, csv: None, nothing: "", terminal: None, page: None, look: Look::default() }
+        Self { get, csv: None, nothing: "", terminal: None, page: None, look: Look::default(), means: "" }
     }
 
     /// Shows it in the CSV under this identifier.
@@ -138,6 +139,12 @@ impl<R> Column<R> {
     #[must_use]
     pub fn both(self, title: &'static str, digits: usize) -> Self {
         self.terminal(title, digits).page(title, digits)
+    }
+
+    /// Says what it holds, for legends.
+    #[must_use]
+    pub fn means(self, means: &'static str) -> Self {
+        Self { means, ..self }
     }
 
     /// Sets its cells at the left.
@@ -201,6 +208,16 @@ impl<R> Column<R> {
     }
 }
 
+/// Returns what the columns of the terminal hold, a line for each that says so.
+#[must_use]
+pub fn legend<R>(columns: &[Column<R>]) -> String {
+    let titles = columns.iter().filter_map(|column| Some((column.terminal?.title, column.means)));
+    let said: Vec<(&str, &str)> = titles.filter(|(_, means)| !means.is_empty()).collect();
+    let width = said.iter().map(|(title, _)| title.chars().count()).max().unwrap_or(0);
+    let lines = said.iter().map(|(title, means)| format!("  {title:<width$}  {means}"));
+    std::iter::once("Columns:".to_owned()).chain(lines).collect::<Vec<_>>().join("\n")
+}
+
 /// Returns comma-separated values: a line of identifiers and a line per row, quoted where a cell needs it.
 ///
 /// *Errors:* those of the writer; none are known.
@@ -260,6 +277,11 @@ impl<'c, R> Table<'c, R> {
     }
 }
 
+/// Returns the title of each column of a page, and what it holds.
+pub fn titles<R>(columns: &[Column<R>]) -> Vec<(&'static str, &'static str)> {
+    columns.iter().filter_map(|column| Some((column.page?.title, column.means))).collect()
+}
+
 /// Returns the title and the content of each cell of a row of a page.
 pub fn cells<R>(columns: &[Column<R>], row: &R) -> Vec<(&'static str, Markup)> {
     let shown = columns.iter().filter_map(|column| Some((column, column.page?)));
@@ -272,7 +294,9 @@ pub fn html<R>(class: &str, columns: &[Column<R>], rows: &[R]) -> Markup {
     html! {
         div.wide {
             table class=(class) {
-                thead { tr { @for (_, heading) in &shown { th { (heading.title) } } } }
+                thead { tr { @for (column, heading) in &shown {
+                    th title=[(!column.means.is_empty()).then_some(column.means)] { (heading.title) }
+                } } }
                 tbody {
                     @for row in rows {
                         tr {
@@ -317,6 +341,18 @@ mod tests {
         let columns = columns();
         let lines: Vec<String> = Table::new(&columns, &ROWS).lines(&ROWS).collect();
         assert_eq!(lines, ["name       share", "a,\"b\" <c>  0.2 %", "plain          -"]);
+    }
+
+    #[test]
+    fn a_legend_has_a_line_for_each_column_of_the_terminal_that_says_what_it_holds() {
+        let column = || Column::new(|row: &Row| row.2.into());
+        let columns = [
+            column().csv("id").means("nothing that a table shows"),
+            column().terminal("cells", 0).means("how many"),
+            column().terminal("share %", 0).means("of all"),
+            column().terminal("silent", 0),
+        ];
+        assert_eq!(legend(&columns), "Columns:\n  cells    how many\n  share %  of all");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 pub mod column;
 pub mod film;
+pub mod frames;
 pub mod html;
 pub mod measures;
 pub mod save;

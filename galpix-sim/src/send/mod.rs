@@ -24,6 +24,7 @@ use galpix_core::{Class, Galpixel};
 use galpix_link::frame::{Frame, Galpixels, NO_SCENE, Status};
 use galpix_link::panel::{self, Description};
 use galpix_link::rejected::{Rejected, Rejections};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use address::{Address, OpenError};
@@ -75,7 +76,7 @@ impl Request {
 }
 
 /// What was sent, and what the device reports.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report {
     /// The scene or the capture.
     pub source: String,
@@ -98,7 +99,7 @@ pub struct Report {
 }
 
 /// An update that was sent.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Sent {
     /// Its number.
     pub update: u16,
@@ -115,7 +116,7 @@ pub struct Sent {
 }
 
 /// What the device counted from the first request to the last.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Device {
     /// The frame counter at the end.
     pub frame: u32,

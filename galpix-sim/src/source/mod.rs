@@ -8,6 +8,7 @@ pub mod scene;
 
 use std::path::Path;
 
+use crate::suggest;
 use crate::update::{Truth, Update};
 use capture::{Capture, Census, ImportOptions};
 use scene::Scene;
@@ -25,8 +26,9 @@ pub enum Source {
 pub enum SourceError {
     /// Neither a scene nor a file.
     #[error(
-        "`{0}` is neither a built-in scene nor a capture: `galpix scenes` lists the scenes, or give the path of a \
-         capture.toml"
+        "`{0}` is neither a built-in scene nor a capture{hint}: `galpix scenes` lists the scenes, or give the path of a \
+         capture.toml",
+        hint = suggest::hint(.0, scene::all().iter().map(|scene| scene.name()))
     )]
     NoSuchSource(String),
     /// The capture cannot be read.

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use maud::{Markup, html};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::holes::Holes;
@@ -19,7 +20,7 @@ const SHOWN: usize = 300;
 const SIDE: [usize; 2] = [40, 96];
 
 /// The largest connected disoccluded area of all frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Largest {
     /// Frames since the update.
     pub frame: u32,

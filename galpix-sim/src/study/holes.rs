@@ -41,6 +41,21 @@ impl Holes {
         Self { frame, truth: truth.picture.clone(), all, at_border, disoccluded, warped }
     }
 
+    /// Returns the same where all cells are judged that nothing reached, those connected with the border too.
+    #[must_use]
+    pub fn with_border(&self, fovea: Option<u32>) -> Self {
+        let (width, height) = (self.truth.width, self.truth.height);
+        let outside = |(cell, &open): (usize, &bool)| open && !in_fovea(fovea, cell, width, height);
+        Self {
+            frame: self.frame,
+            truth: self.truth.clone(),
+            all: self.all.clone(),
+            at_border: self.at_border.clone(),
+            disoccluded: self.all.iter().enumerate().map(outside).collect(),
+            warped: Picture { width: 0, height: 0, pixels: Vec::new() },
+        }
+    }
+
     /// Returns the largest connected disoccluded area: its cells and the window around them.
     #[must_use]
     pub fn largest(&self) -> Option<(usize, Window)> {
@@ -82,6 +97,7 @@ mod tests {
         let set = |cells: &[bool]| (0..25).filter(|&cell| cells[cell]).collect::<Vec<_>>();
         assert_eq!(set(&holes.all), [5, 8, 11, 21]);
         assert_eq!(set(&holes.disoccluded), [8, 11]);
+        assert_eq!(set(&holes.with_border(None).disoccluded), [5, 8, 11, 21]);
         assert_eq!((holes.warped.pixels[13], holes.warped.pixels[0]), ([0; 3], [9; 3]));
         assert_eq!(holes.largest().map(|largest| largest.0), Some(1));
     }

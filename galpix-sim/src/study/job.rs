@@ -45,7 +45,8 @@ pub struct Request {
     pub extent: Option<u32>,
     /// `tau_recog`; 8 if absent.
     pub recog: Option<u32>,
-    /// `tau_prop`; the next power of two of the frames if absent.
+    /// `tau_prop`; if absent, the next power of two of the frames that the source is meant for: what is asked for does
+    /// not change the frames before it.
     pub prop: Option<u32>,
     /// The fewest fraction bits of positions in x and y, if equation (11) asks for less.
     pub position_frac: u32,
@@ -173,7 +174,7 @@ impl<'s> Job<'s> {
     ) -> Result<Self, ExperimentError> {
         let update = Arc::new(source.update());
         let frames = request.frames(source);
-        let demand = request.demand(&update, frames);
+        let demand = request.demand(&update, source.frames());
         let layout = layout(&update);
         let bits = if layout.acceleration { Bits::derive(demand)? } else { Bits::derive_without_acceleration(demand)? };
         let bits = finer(bits, request.position_frac);

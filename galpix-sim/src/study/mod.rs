@@ -7,9 +7,10 @@
 //!
 //! A [`Study`] defines what is particular to it; the driver of the command line opens the sources, shows progress,
 //! prints and writes. No study imports another: what several of them use is in [`cells`], [`crops`], [`holes`],
-//! [`ink`], [`job`], [`run`] and [`timing`].
+//! [`ink`], [`job`], [`run`], [`story`] and [`timing`].
 
 pub mod cells;
+pub mod compare;
 pub mod crops;
 pub mod ddoc;
 pub mod demo;
@@ -23,10 +24,12 @@ pub mod layers;
 pub mod plan;
 pub mod run;
 pub mod stability;
+pub mod story;
 pub mod timing;
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::output::html::Fact;
@@ -63,6 +66,8 @@ pub enum Work<'n> {
     Done,
     /// One piece is done, and this is its name.
     DoneWith(&'n str),
+    /// Something to be said beside the results.
+    Note(&'n str),
 }
 
 /// Where a study runs.
@@ -110,9 +115,17 @@ pub enum Found<R> {
     Nothing(Nothing),
 }
 
+/// The version of the keys of every JSON document. It rises when a key goes, gets another name or another meaning; keys
+/// may be added without.
+pub const SCHEMA: u32 = 1;
+
 /// Everything that was found.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Document<E, R> {
+    /// The version of the keys.
+    pub schema: u32,
+    /// What kind of document this is: the name of the command.
+    pub kind: &'static str,
     /// Of galpix.
     pub version: &'static str,
     /// The call, as it can be repeated.
@@ -129,7 +142,29 @@ pub struct Document<E, R> {
     pub sources: Vec<R>,
 }
 
+/// A document about one thing: its head, and the keys of what it is about.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct Headed<'d, B> {
+    /// The version of the keys.
+    pub schema: u32,
+    /// What kind of document this is: the name of the command, or `error`.
+    pub kind: &'static str,
+    /// Of galpix.
+    pub version: &'static str,
+    /// The call, as it can be repeated.
+    pub command: &'d str,
+    /// What it is about; it has keys.
+    #[serde(flatten)]
+    pub body: &'d B,
+}
+
 impl<E, R> Document<E, R> {
+    /// Returns the same head over one body.
+    #[must_use]
+    pub fn headed<'d, B>(&'d self, body: &'d B) -> Headed<'d, B> {
+        Headed { schema: self.schema, kind: self.kind, version: self.version, command: &self.command, body }
+    }
+
     /// Returns how a page was made.
     #[must_use]
     pub fn facts(&self) -> Vec<Fact> {
@@ -144,7 +179,7 @@ impl<E, R> Document<E, R> {
 }
 
 /// Nothing besides the sources.
-#[derive(Clone, Copy, Debug, Default, Serialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, JsonSchema)]
 pub struct NoExtra {}
 
 /// Where the path of a study's last file, its page, is printed.
@@ -172,6 +207,8 @@ pub trait Study {
     /// What is reported besides the sources.
     type Extra: Serialize;
 
+    /// Its name, that of its command.
+    const NAME: &'static str;
     /// Whether the duration of the study is reported.
     const SECONDS: bool = true;
     /// Where the path of its last file is printed.

@@ -2,14 +2,16 @@
 //!
 //! A round takes each contender once: the update is loaded (not timed), memory is copied, the frames are stepped and
 //! timed one by one, memory is copied again. The time of a round is the median over its frames, its ratio that by the
-//! mean of the two copies; the result is the median over the rounds, the first of which warms up. Times are this
-//! thread's processor time.
+//! mean of the two copies; the result is the median over the rounds, the first of which warms up, with their range: two
+//! times whose ranges overlap are not told apart. The copies, of which every one of a size takes the same time on a
+//! machine that does nothing else, say how noisy it was. Times are this thread's processor time.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
 use galpix_core::{Controller, Format, Galpixmap, Grid, Margin, Scratch, Settings, stages};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::engine::fill::{Inpaint, Inpainter};
@@ -37,7 +39,7 @@ pub trait Contender {
 }
 
 /// A time, and its ratio to a copy of the same bytes in the same run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Time {
     /// Microseconds a frame, the median.
     pub frame_us: f64,
@@ -45,6 +47,75 @@ pub struct Time {
     pub ns_per_cell: f64,
     /// Ratio to a copy of as many bytes as the map has, the median.
     pub x_copy: f64,
+    /// The smallest and the largest of the rounds, of which `frame_us` is the median.
+    pub frame_us_range: [f64; 2],
+    /// The same of `x_copy`.
+    pub x_copy_range: [f64; 2],
+}
+
+impl Time {
+    /// Returns half the range of the rounds, in per cent of the median.
+    #[must_use]
+    pub fn uncertain_percent(&self) -> f64 {
+        let [low, high] = self.frame_us_range;
+        50.0 * (high - low) / self.frame_us.max(f64::MIN_POSITIVE)
+    }
+
+    /// Returns whether no round of one took as long as any of the other.
+    #[must_use]
+    pub fn is_told_apart(&self, other: &Self) -> bool {
+        self.frame_us_range[1] < other.frame_us_range[0] || other.frame_us_range[1] < self.frame_us_range[0]
+    }
+}
+
+/// How much the same work differed in time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Noise {
+    /// The slowest copy of the same bytes by the fastest one: the median over all that was timed.
+    pub copy_spread: f64,
+    /// Whether that is so much that times are to be doubted.
+    pub noisy: bool,
+}
+
+impl Noise {
+    /// The spread of copies from which on times are to be doubted.
+    pub const DOUBTFUL: f64 = 1.25;
+
+    fn of(copies: impl Iterator<Item = Vec<f64>>) -> Option<Self> {
+        let spreads = copies.filter_map(|times| {
+            let [low, high] = range(&times)?;
+            Some(high / low.max(f64::MIN_POSITIVE))
+        });
+        let copy_spread = median(spreads.collect())?;
+        Some(Self { copy_spread, noisy: copy_spread > Self::DOUBTFUL })
+    }
+
+    /// Returns a warning, if one is due.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        self.noisy.then(|| {
+            format!(
+                "The machine was noisy: the same copy of memory took up to {:.2} times as long as at its fastest, so times \
+                 and fronts of time are uncertain. Repeat this while nothing else runs.",
+                self.copy_spread
+            )
+        })
+    }
+}
+
+/// Returns the smallest and the largest value.
+fn range(values: &[f64]) -> Option<[f64; 2]> {
+    let low = values.iter().copied().reduce(f64::min)?;
+    Some([low, values.iter().copied().fold(low, f64::max)])
+}
+
+/// What was timed together.
+#[derive(Clone, Debug)]
+pub struct Race {
+    /// The times of the contenders, in their order.
+    pub times: Vec<Option<Time>>,
+    /// How noisy the machine was, where that was seen.
+    pub noise: Option<Noise>,
 }
 
 /// The engine over memory of its own, without anything around it.
@@ -175,7 +246,7 @@ impl Contender for Whole<'_> {
 pub type Maker<'m> = Box<dyn Fn() -> Option<Box<dyn Contender + 'm>> + 'm>;
 
 /// How often things are timed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Effort {
     /// Rounds that count.
     pub rounds: u32,
@@ -185,8 +256,8 @@ pub struct Effort {
 
 /// Times the contenders that `make` makes; they live for a turn only, so that their memory need not exist at the same
 /// time.
-pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl FnMut()) -> Vec<Option<Time>> {
-    let mut rounds: Vec<Vec<(f64, f64)>> = vec![Vec::new(); make.len()];
+pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl FnMut()) -> Race {
+    let mut rounds: Vec<Rounds> = vec![Rounds::default(); make.len()];
     let mut copy = Copy::default();
     for round in 0..=effort.rounds {
         for (make, rounds) in make.iter().zip(&mut rounds) {
@@ -199,19 +270,34 @@ pub fn race(update: &Update, effort: Effort, make: &[Maker<'_>], mut done: impl 
             let after = copy.time(bytes);
             // The first round warms up.
             if let (Some(time), true) = (time, round > 0) {
-                rounds.push((time, time / (0.5 * (before + after)).max(1e-9)));
+                rounds.frames.push(time);
+                let copied = (0.5 * (before + after)).max(1e-9);
+                rounds.ratios.push(time / copied);
+                rounds.copies.push(copied);
             }
         }
     }
     let cells = update.samples.len().max(1) as f64;
-    rounds
-        .into_iter()
-        .map(|rounds| {
-            let time = median(rounds.iter().map(|round| round.0).collect())?;
-            let x_copy = median(rounds.iter().map(|round| round.1).collect())?;
-            Some(Time { frame_us: time * 1e6, ns_per_cell: time * 1e9 / cells, x_copy })
-        })
-        .collect()
+    let noise = Noise::of(rounds.iter().map(|rounds| rounds.copies.clone()));
+    Race { times: rounds.into_iter().map(|rounds| rounds.time(cells)).collect(), noise }
+}
+
+/// The rounds of a contender, in seconds.
+#[derive(Clone, Debug, Default)]
+struct Rounds {
+    frames: Vec<f64>,
+    /// By the copy.
+    ratios: Vec<f64>,
+    /// The mean of the copies before and after: one of them finds more in the caches, in each round the same.
+    copies: Vec<f64>,
+}
+
+impl Rounds {
+    fn time(self, cells: f64) -> Option<Time> {
+        let (frame_us_range, x_copy_range) = (range(&self.frames)?.map(|time| time * 1e6), range(&self.ratios)?);
+        let (time, x_copy) = (median(self.frames)?, median(self.ratios)?);
+        Some(Time { frame_us: time * 1e6, ns_per_cell: time * 1e9 / cells, x_copy, frame_us_range, x_copy_range })
+    }
 }
 
 /// Memory to be copied, aligned to cache lines: on some processors copies of other memory take ten times as long.
@@ -244,5 +330,31 @@ impl Copy {
             timed += if counted > 0 { start.elapsed() } else { Duration::ZERO };
         }
         timed.as_secs_f64() / f64::from(times)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_is_the_median_of_its_rounds_and_has_their_range() {
+        let rounds = Rounds { frames: vec![4e-6, 2e-6, 3e-6], ratios: vec![2.0, 1.0, 1.5], copies: vec![2e-6; 6] };
+        let time = rounds.time(1000.0).expect("a time");
+        assert!((time.frame_us - 3.0).abs() < 1e-9 && (time.x_copy - 1.5).abs() < 1e-9);
+        assert!((time.uncertain_percent() - 100.0 / 3.0).abs() < 1e-9);
+        let at = |low: f64, high: f64| Time { frame_us_range: [low, high], ..time };
+        assert!(at(1.0, 2.0).is_told_apart(&at(2.1, 3.0)) && at(2.1, 3.0).is_told_apart(&at(1.0, 2.0)));
+        assert!(!at(1.0, 2.0).is_told_apart(&at(1.9, 3.0)) && !at(1.0, 2.0).is_told_apart(&at(1.2, 1.3)));
+        assert_eq!(Rounds::default().time(1.0), None);
+    }
+
+    #[test]
+    fn copies_say_whether_the_machine_is_noisy() {
+        let noise =
+            |slowest: f64| Noise::of([vec![1.0, slowest], vec![slowest, 1.0, 1.0]].into_iter()).expect("copies");
+        assert_eq!((noise(1.1).noisy, noise(1.1).warning()), (false, None));
+        assert!(noise(1.5).warning().is_some_and(|text| text.contains("1.50 times")));
+        assert_eq!(Noise::of([Vec::new()].into_iter()), None);
     }
 }

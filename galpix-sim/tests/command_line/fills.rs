@@ -31,7 +31,7 @@ fn page_values_and_pictures_say_the_same() {
     assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
     assert_eq!(page.matches("src=").count(), page.matches("src=\"data:image/png;base64,").count());
     assert_eq!(page.matches("<img ").count(), fills.len() + 2);
-    assert_eq!(page.matches("<svg class=\"plot\"").count(), 2);
+    assert_eq!(page.matches("<svg class=\"plot\"").count(), 3);
     assert_eq!(page.matches("<tr><td").count(), fills.len());
 
     // The pictures: those that the index lists, the mask as large as in the document, and what no mask covers is the

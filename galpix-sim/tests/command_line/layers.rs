@@ -21,7 +21,7 @@ fn page_and_values_say_the_same() {
     // A line for each strategy and frame, one for all its frames; missing cells add up.
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     assert_eq!(csv.lines().count(), 1 + strategies.len() * 3);
-    assert!(strategies.len() > 8 && columns.len() == 15);
+    assert!(strategies.len() > 8 && columns.len() == 17);
     for strategy in strategies {
         let frames = strategy["frames"].as_array().unwrap();
         let sum: u64 = frames.iter().map(|frame| frame["missing"].as_u64().unwrap()).sum();
@@ -74,9 +74,11 @@ fn a_run_hands_over_what_is_hidden() {
     assert!(printed.contains("samples behind the first layer"), "{printed}");
 }
 
-/// Returns a report with the times of another one.
+/// Returns a report with the times and the call of another one.
 fn ignoring_time(mut report: Value, like: &Value) -> Value {
-    report["ns_per_galpixel"] = like["ns_per_galpixel"].clone();
+    for key in ["ns_per_galpixel", "command"] {
+        report[key] = like[key].clone();
+    }
     for (frame, like) in report["frames"].as_array_mut().unwrap().iter_mut().zip(like["frames"].as_array().unwrap()) {
         frame["ns_per_galpixel"] = like["ns_per_galpixel"].clone();
     }

@@ -3,8 +3,10 @@
 mod budget;
 mod ddoc;
 mod demo;
+mod describe;
 mod error;
 mod fills;
+mod folders;
 mod graft;
 mod layers;
 mod plan;
@@ -64,12 +66,18 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
 }
 
 /// Returns the sentence of a call that is refused: exit code 2, one line on standard error that holds each of `words`,
-/// nothing on standard output.
+/// nothing on standard output; with `--json` the same sentence there, in a document.
 fn refused(folder: &Path, arguments: &[&str], words: &[&str]) -> String {
     let output = output(folder, arguments);
     let sentence = text(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {sentence}");
-    assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    if arguments.contains(&"--json") {
+        let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        assert_eq!((&document["kind"], &document["error"]["exit_code"]), (&"error".into(), &2.into()));
+        assert_eq!(format!("galpix: {}\n", document["error"]["message"].as_str().unwrap()), sentence);
+    } else {
+        assert_eq!(text(&output.stdout), "", "{arguments:?}");
+    }
     assert!(sentence.starts_with("galpix: ") && sentence.ends_with('\n'), "{arguments:?}: {sentence:?}");
     assert!(!sentence.contains('\u{1b}'), "{arguments:?}: {sentence:?}");
     assert_eq!(sentence.lines().count(), 1, "{arguments:?}: {sentence:?}");

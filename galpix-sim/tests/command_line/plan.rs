@@ -14,6 +14,8 @@ fn a_plan_says_what_is_not_needed() {
     for word in ["certified px", "measured px", "impl Profile for PlannedDrift", "full budget"] {
         assert!(text.contains(word), "{word:?} is not in {text}");
     }
+    let page = crate::read(&folder.path().join("galpix-out/plan/plan.html"));
+    assert!(page.contains("impl Profile for PlannedDrift") && page.contains(">certified px</td>"), "{page}");
     refused(folder.path(), &["plan", "ball", "--max-error", "0.00000001"], &["no budget certifies"]);
     refused(folder.path(), &["plan", "ball"], &["--max-error"]);
     refused(folder.path(), &["plan", "nowhere", "--max-error", "1"], &["nowhere", "galpix scenes"]);

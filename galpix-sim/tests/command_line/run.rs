@@ -65,7 +65,8 @@ fn assert_report(report: &Value, frames: usize) {
 
 fn assert_frames(folder: &Path, frames: u32, size: (usize, usize)) {
     let expected: BTreeSet<String> = (0..=frames).map(|frame| format!("{frame:04}.png")).collect();
-    assert_eq!(entries(folder), expected);
+    let pictures: BTreeSet<String> = entries(folder).into_iter().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(pictures, expected);
     for name in expected {
         let picture = picture(&folder.join(&name));
         assert_eq!((picture.width, picture.height), size, "{name}");
@@ -84,6 +85,45 @@ fn run_as_json_is_one_document_and_writes_the_frames() {
     assert_eq!([&report["budget"]["extent"], &report["budget"]["recog"], &report["budget"]["prop"]], [256, 8, 32]);
     assert!(report["frames"].as_array().unwrap().iter().all(|frame| frame["truth"].is_object()), "a scene has a truth");
     assert_frames(&folder.path().join("galpix-out/still"), 24, (192, 144));
+}
+
+#[test]
+fn two_runs_are_compared_frame_by_frame() {
+    let folder = folder();
+    for fill in ["hold", "extend"] {
+        let printed = done(folder.path(), &["run", "crossing", "--frames", "3", "--fill", fill, "--json"]);
+        std::fs::write(folder.path().join(format!("{fill}.json")), printed).unwrap();
+    }
+    let text = done(folder.path(), &["compare", "hold.json", "extend.json"]);
+    assert_eq!(text.lines().last(), Some("galpix-out/compare/compare.html"));
+    assert!(text.contains("fill: \"hold\" in A, \"extend\" in B"), "{text}");
+    let written = folder.path().join("galpix-out/compare");
+    assert_eq!(entries(&written), ["compare.csv", "compare.html"].map(String::from).into());
+    let comparison = json(folder.path(), &["compare", "hold.json", "extend.json", "--json"]);
+    assert_eq!((&comparison["kind"], comparison["frames"].as_array().unwrap().len()), (&"compare".into(), 3));
+    let [hold, extend] = ["first", "second"].map(|run| comparison["means"][run][0].as_f64().unwrap());
+    assert!(extend > hold, "{hold} {extend}");
+    refused(folder.path(), &["compare", "hold.json", "nothing.json"], &["nothing.json", "correct the path"]);
+    std::fs::write(folder.path().join("scenes.json"), done(folder.path(), &["scenes", "--json"])).unwrap();
+    refused(folder.path(), &["compare", "hold.json", "scenes.json"], &["scenes.json", "galpix run SOURCE --json"]);
+}
+
+/// Without `--json` a run leaves its page, with a film and where the error is seen, and its figures.
+#[test]
+fn run_writes_a_page_and_its_figures() {
+    let folder = folder();
+    let text = done(folder.path(), &["run", marbles().to_str().unwrap(), "--frames", "6", "--out", "there"]);
+    let page = crate::read(&folder.path().join("there/report.html"));
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert!(!page.contains("http:") && !page.contains("https:"), "the page loads something");
+    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 2, "the film, and FLIP pixel by pixel");
+    assert_eq!(page.matches("<svg class=\"plot\"").count(), 4);
+    let csv = crate::read(&folder.path().join("there/frames.csv"));
+    assert_eq!(csv.lines().count(), 7);
+    let flip = csv.lines().next().unwrap().split(',').position(|column| column == "flip").expect("FLIP");
+    let last = csv.lines().last().unwrap().split(',').nth(flip).unwrap();
+    assert!(text.contains(&format!("{:.4}", last.parse::<f64>().unwrap())), "{last} is not in {text}");
+    assert!(text.contains("reached dB  PSNR of the cells"), "{text}");
 }
 
 #[test]

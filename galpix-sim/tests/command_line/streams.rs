@@ -38,9 +38,12 @@ fn a_reader_that_goes_away_is_no_failure() {
 #[test]
 fn an_output_that_is_full_is_exit_code_1() {
     let folder = folder();
-    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let child = galpix(folder.path(), &["budget"]).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).starts_with("galpix: standard output cannot be written"), "{}", text(&output.stderr));
+    for argument in ["budget", "--help", "--version", "man"] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let child = galpix(folder.path(), &[argument]).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{argument}");
+        let said = text(&output.stderr);
+        assert!(said.starts_with("galpix: standard output cannot be written"), "{argument}: {said}");
+    }
 }

@@ -4,17 +4,21 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use crate::{done, folder, refused};
+use crate::{done, folder, json, refused};
 
 #[test]
 fn vectors_are_written_whole_and_again_the_same() {
     let folder = folder();
-    let manifest = |out: &str, seed: &str| -> Value {
-        let path = done(folder.path(), &["vectors", "--out", out, "--seed", seed]);
-        let text = std::fs::read_to_string(folder.path().join(path.trim())).expect("the manifest");
+    let read = |path: &str| -> Value {
+        let text = std::fs::read_to_string(folder.path().join(path)).expect("the manifest");
         serde_json::from_str(&text).expect("JSON")
     };
-    let (one, again, other) = (manifest("a", "0"), manifest("b", "0"), manifest("c", "1"));
+    let manifest = |out: &str| read(done(folder.path(), &["vectors", "--out", out]).trim());
+    let (one, again) = (manifest("a"), manifest("b"));
+    let written = json(folder.path(), &["vectors", "--out", "c", "--seed", "1", "--json"]);
+    let other = read(written["manifest"].as_str().expect("its path"));
+    assert_eq!((&written["kind"], &written["seed"]), (&"vectors".into(), &1.into()));
+    assert_eq!(written["cases"].as_u64(), other["cases"].as_array().map(|cases| cases.len() as u64));
     assert_eq!(one, again);
     assert_ne!(one["cases"], other["cases"]);
     let kinds: BTreeSet<&str> =

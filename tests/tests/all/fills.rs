@@ -11,8 +11,12 @@ use galpix_sim::study::run::Request;
 fn compared(name: &str, frames: u32, fills: &[&str], gamma: Option<Gamma>, fovea: Option<u32>) -> SourceReport {
     let mut cases = case::all(gamma, fovea);
     cases.retain(|case| fills.is_empty() || fills.contains(&case.name));
-    let plan =
-        Plan { request: Request { frames: Some(frames), ..Request::default() }, cases, left_out: Vec::new(), fovea };
+    let plan = Plan {
+        request: Request { frames: Some(frames), prop: Some(frames.max(2).next_power_of_two()), ..Request::default() },
+        cases,
+        left_out: Vec::new(),
+        fovea,
+    };
     let source = Source::open(name, &ImportOptions::default()).unwrap();
     study(&source, &plan, None, || {}).unwrap().expect("something is disoccluded")
 }
@@ -66,7 +70,7 @@ fn a_fovea_is_neither_inpainted_nor_judged() {
     let source = Source::open("fovea", &ImportOptions::default()).unwrap();
     let shown = |fill: Fill| {
         let mut pictures = Vec::new();
-        let request = Request { fill, frames: Some(2), perceptual: false, ..Request::default() };
+        let request = Request { fill, frames: Some(2), prop: Some(2), perceptual: false, ..Request::default() };
         galpix_sim::study::run::run(&source, &request, |frame| pictures.push(frame.picture.clone())).unwrap();
         pictures
     };
@@ -79,7 +83,7 @@ fn a_fovea_is_neither_inpainted_nor_judged() {
 #[test]
 fn nothing_is_compared_where_nothing_is_disoccluded() {
     let source = Source::open("still", &ImportOptions::default()).unwrap();
-    let request = Request { frames: Some(2), ..Request::default() };
+    let request = Request { frames: Some(2), prop: Some(2), ..Request::default() };
     let plan = Plan { request, cases: case::all(None, None), left_out: Vec::new(), fovea: None };
     assert!(study(&source, &plan, None, || panic!("no fill is run")).unwrap().is_none());
 }

@@ -23,15 +23,20 @@ fn open(name: &str) -> Source {
 const DISOCCLUDED: [(&str, u32); 6] =
     [("pillars", 8), ("crossing", 8), ("disc", 8), ("sphere", 8), ("near-plane", 8), ("ball", 8)];
 
+/// Returns the tau_prop of updates so many frames apart.
+fn prop(frames: u32) -> Option<u32> {
+    Some(frames.max(2).next_power_of_two())
+}
+
 fn run(name: &str, frames: u32, strategy: Strategy) -> (RunReport, Vec<Picture>) {
     let mut pictures = Vec::new();
-    let request = Request { frames: Some(frames), strategy, ..Request::default() };
+    let request = Request { frames: Some(frames), prop: prop(frames), strategy, ..Request::default() };
     let report = experiment::run(&open(name), &request, |frame| pictures.push(frame.picture.clone())).unwrap();
     (report, pictures)
 }
 
 fn compared(name: &str, frames: u32) -> SourceReport {
-    let request = Request { frames: Some(frames), ..Request::default() };
+    let request = Request { frames: Some(frames), prop: prop(frames), ..Request::default() };
     match study(&open(name), &Plan { request, strategies: strategies(SEPARATION) }, || {}).unwrap() {
         Study::Compared(report) => *report,
         _ => panic!("{name}: nothing is disoccluded"),
@@ -162,7 +167,7 @@ fn what_cannot_be_layered_is_refused() {
 fn a_capture_without_hidden_samples_says_so() {
     let marbles = concat!(env!("CARGO_MANIFEST_DIR"), "/../captures/marbles");
     let source = Source::open(marbles, &ImportOptions::default()).unwrap();
-    let request = Request { frames: Some(1), strategy: SHIPPED, ..Request::default() };
+    let request = Request { frames: Some(1), prop: prop(1), strategy: SHIPPED, ..Request::default() };
     let error = experiment::run(&source, &request, |_| panic!("nothing is shown")).unwrap_err();
     assert!(matches!(error, ExperimentError::NothingHidden { .. }), "{error}");
     let sentence = error.to_string();

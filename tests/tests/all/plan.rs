@@ -10,7 +10,7 @@ use galpix_tests::captures::{manifests, shared};
 
 fn planned(source: &Source, max_error: f64) -> Planning {
     let request = Request { perceptual: false, ..Request::default() };
-    plan::plan(source, &request, max_error, max_error / 4.0)
+    plan::plan(source, &request, [max_error, max_error / 4.0], || {})
         .unwrap_or_else(|error| panic!("{}: {error}", source.name()))
 }
 
@@ -75,15 +75,12 @@ fn a_larger_error_never_needs_more() {
 #[test]
 fn an_error_that_no_budget_keeps_is_refused() {
     let source = Source::Scene(scene::find("ball").unwrap());
-    let refused = plan::plan(&source, &Request::default(), 1e-9, 1e-10).unwrap_err().to_string();
+    let refused = plan::plan(&source, &Request::default(), [1e-9, 1e-10], || {}).unwrap_err().to_string();
     assert!(refused.contains("no budget certifies"), "{refused}");
 }
 
 /// What `galpix plan pan --max-error 0.5` printed.
 mod printed {
-    use galpix_core::record::Component;
-    use galpix_core::{Bits, FillMode, Layout, Profile, Rounding, Settings};
-
     include!("plan/pan.rs");
 }
 
@@ -109,7 +106,7 @@ fn plans_of_all_captures_hold_what_they_claim() {
         let source = Source::open(&manifest.to_string_lossy(), &ImportOptions::default()).unwrap();
         // A few frames: what is checked is the same, and the pictures are large.
         let request = Request { perceptual: false, frames: Some(source.frames().clamp(2, 6)), ..Request::default() };
-        match plan::plan(&source, &request, 1.0, 0.25) {
+        match plan::plan(&source, &request, [1.0, 0.25], || {}) {
             Ok(planning) => check(&planning),
             Err(error) => panic!("{}: {error}", source.name()),
         }

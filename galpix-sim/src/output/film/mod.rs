@@ -72,6 +72,26 @@ pub fn magnified(picture: &Picture, factor: usize) -> Picture {
     Picture { width, height, pixels: pixels.collect() }
 }
 
+/// Returns the picture with squares of `factor` by `factor` pixels as one, their mean; 0 counts as 1.
+#[must_use]
+pub fn reduced(picture: &Picture, factor: usize) -> Picture {
+    if factor <= 1 {
+        return picture.clone();
+    }
+    let (width, height) = (picture.width.div_ceil(factor), picture.height.div_ceil(factor));
+    let mean = |x: usize, y: usize| -> [u8; 3] {
+        let (right, lower) = (picture.width.min((x + 1) * factor), picture.height.min((y + 1) * factor));
+        let square = || (y * factor..lower).flat_map(|y| (x * factor..right).map(move |x| picture.at(x, y)));
+        let count = square().count().max(1);
+        std::array::from_fn(|channel| {
+            let sum: usize = square().map(|pixel| usize::from(pixel[channel])).sum();
+            ((sum + count / 2) / count) as u8
+        })
+    };
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y));
+    Picture { width, height, pixels: pixels.collect() }
+}
+
 /// Copies `panel` into `sheet` with its top left corner at (`left`, `top`); it must fit.
 fn paste(panel: &Picture, sheet: &mut Picture, left: usize, top: usize) {
     for (y, row) in panel.pixels.chunks_exact(panel.width.max(1)).enumerate() {
@@ -122,5 +142,13 @@ mod tests {
         let pair = Picture { width: 2, height: 1, pixels: vec![[1; 3], [2; 3]] };
         assert_eq!(magnified(&pair, 2).pixels, [[1; 3], [1; 3], [2; 3], [2; 3], [1; 3], [1; 3], [2; 3], [2; 3]]);
         assert_eq!(magnified(&pair, 0), pair);
+    }
+
+    #[test]
+    fn reducing_is_undone_by_magnifying_and_rims_are_means_of_what_is_there() {
+        let pair = Picture { width: 2, height: 1, pixels: vec![[1; 3], [2; 3]] };
+        assert_eq!((reduced(&magnified(&pair, 3), 3), reduced(&pair, 0)), (pair.clone(), pair));
+        let three = Picture { width: 3, height: 1, pixels: vec![[10; 3], [21; 3], [7; 3]] };
+        assert_eq!(reduced(&three, 2).pixels, [[16; 3], [7; 3]]);
     }
 }

@@ -23,6 +23,7 @@ pub(crate) mod text;
 
 pub use super::save::write_atomically;
 use crate::metric::measures::Measures;
+use crate::picture::Picture;
 pub(crate) use overview::cell;
 pub(crate) use page::line_key;
 pub use page::{Fact, Head, document, list, notes, picture, plot as plotted, reading, source};
@@ -62,10 +63,21 @@ pub struct Story {
     pub certificate: Option<CertificateLine>,
     /// An animated PNG of the panels truth, sample-and-hold, galpix, difference; empty if there is none.
     pub film_apng: Vec<u8>,
+    /// Where the error of a frame is seen, if that was worked out.
+    pub heat: Option<Heat>,
     /// One per frame, frames ascending.
     pub rows: Vec<Row>,
     /// Remarks, one sentence or two each.
     pub notes: Vec<String>,
+}
+
+/// Where the error of a frame is seen.
+#[derive(Clone, Debug)]
+pub struct Heat {
+    /// Frames since the update.
+    pub frame: u32,
+    /// FLIP of each pixel as a colour: black for equals, by red and orange to white.
+    pub picture: Picture,
 }
 
 /// The certified error bound of a budget and a rounding, in pixels, without the snap to a cell.
@@ -81,6 +93,8 @@ pub struct CertificateLine {
     pub holds: bool,
     /// The bound after frame `n` at index `n`; index 0 is the update itself. May be empty.
     pub per_frame_px: Vec<f64>,
+    /// The horizon, in frames.
+    pub prop: u32,
 }
 
 /// What was measured in one frame. Figures that were not measured, or are not finite, are shown as a dash.
@@ -88,6 +102,8 @@ pub struct CertificateLine {
 pub struct Row {
     /// Display frames after the update.
     pub frame: u32,
+    /// FLIP of the shown frame against the truth.
+    pub flip: Option<f64>,
     /// Shown frame against the truth.
     pub measures: Measures,
     /// Sample-and-hold against the truth, decibels.

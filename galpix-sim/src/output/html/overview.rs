@@ -31,8 +31,10 @@ pub struct Summary {
     pub gain_db: Option<f64>,
     /// The worst position error, of the frames that the certificate covers, if it names them.
     pub worst_px: Option<f64>,
-    /// The certified bound at the horizon.
+    /// The certified bound of the last frame that it covers of those that were run.
     pub bound_px: Option<f64>,
+    /// The worst position error against the true motion, of all frames, where that is known.
+    pub truth_px: Option<f64>,
     /// How the measured errors lie to the bound, where both are known.
     pub standing: Option<Standing>,
     /// The median over the frames.
@@ -51,7 +53,8 @@ impl Summary {
             psnr_hold_db,
             gain_db: measures.psnr_db.zip(psnr_hold_db).map(|(galpix, hold)| galpix - hold),
             worst_px,
-            bound_px: story.certificate.as_ref().map(|certificate| certificate.total_px),
+            bound_px: story.certificate.as_ref().map(|certificate| bound_of(certificate, story)),
+            truth_px: finite(story, |row| row.truth_error_px).reduce(f64::max),
             standing,
             ns_per_galpixel: median(finite(story, |row| row.ns_per_galpixel).collect()),
         }
@@ -65,6 +68,12 @@ fn bound_after(certificate: &CertificateLine, frame: u32) -> Option<f64> {
         true => Some(certificate.total_px),
         false => certificate.per_frame_px.get(usize::try_from(frame).ok()?).copied(),
     }
+}
+
+/// Returns the bound of all frames that were run and that the certificate covers.
+fn bound_of(certificate: &CertificateLine, story: &Story) -> f64 {
+    let bounds = story.rows.iter().filter_map(|row| bound_after(certificate, row.frame));
+    bounds.reduce(f64::max).unwrap_or(certificate.total_px)
 }
 
 /// Returns the worst error and its standing, over the frames that the certificate covers (all frames without one).
@@ -108,7 +117,7 @@ pub fn overview(report: &Report) -> Markup {
                             tr {
                                 th { "scene" }
                                 @for name in COMPARED { th { (name) } }
-                                @for (name, _) in column::cells(&columns, &Summary::default()) { th { (name) } }
+                                @for (name, means) in column::titles(&columns) { th title=(means) { (name) } }
                                 @for name in FURTHER { th { (name) } }
                             }
                         }
@@ -120,8 +129,9 @@ pub fn overview(report: &Report) -> Markup {
                     }
                 }
                 p.remark {
-                    "PSNR against the truth, and the measures after it: means over the frames. Position error: the worst, against \
-                     the exact second-order path, before the snap. Time: the median of all frames. "
+                    "PSNR against the truth, and the measures after it: means over the frames. From the path: the worst position error \
+                     against the update\u{2019}s second-order path, before the snap, and its certificate for these frames; from the true motion: \
+                     the worst against that, which no certificate covers. Time: the median of all frames. "
                     (measures::reading())
                 }
             }
@@ -133,7 +143,7 @@ pub fn overview(report: &Report) -> Markup {
 const COMPARED: [&str; 4] = ["frames", "galpix", "sample-and-hold", "gain"];
 
 /// Those after them.
-const FURTHER: [&str; 2] = ["worst position error", "ns a galpixel"];
+const FURTHER: [&str; 3] = ["from the path", "from the true motion", "ns a galpixel"];
 
 impl Measured for Summary {
     fn measures(&self) -> Measures {
@@ -163,7 +173,8 @@ fn line(link: &Markup, summary: &Summary, measures: &[(&str, Markup)], widest_ga
             (cell("sample-and-hold", &unit(summary.psnr_hold_db, 1, "dB")))
             (cell("gain", &gain(summary.gain_db, widest_gain)))
             @for (name, content) in measures { (cell(name, content)) }
-            (cell("worst position error", &html! { (unit(summary.worst_px, 2, "px")) (bound) }))
+            (cell("from the path", &html! { (unit(summary.worst_px, 2, "px")) (bound) }))
+            (cell("from the true motion", &unit(summary.truth_px, 2, "px")))
             (cell("ns a galpixel", &html! { (figure(summary.ns_per_galpixel, 1)) }))
         }
     }
@@ -190,7 +201,6 @@ fn gain(gain_db: Option<f64>, widest: f64) -> Markup {
     let class = if gain < 0.0 { "bar poor" } else { "bar good" };
     html! {
         i class=(class) { i style=(format!("width:{share:.0}%")) {} }
-        (signed(Some(gain), 1))
-        small { "dB" }
+        span.gain { (signed(Some(gain), 1)) small { "dB" } }
     }
 }

@@ -150,8 +150,9 @@ fn value_range(plot: &Plot) -> Option<std::ops::Range<f64>> {
     let lowest = below_cap().reduce(f64::min).unwrap_or(plot.cap);
     let highest = below_cap().reduce(f64::max).unwrap_or(plot.cap);
     let lowest = if plot.from_zero { lowest.min(0.0) } else { lowest };
-    let span = (highest - lowest).max(highest.abs() * 1e-9);
-    let pad = if span > 0.0 { span * 0.08 } else { 1.0 };
+    // Figures that hardly differ do not ask for an axis of many digits.
+    let pad = (0.08 * (highest - lowest)).max(0.02 * highest.abs());
+    let pad = if pad > 0.0 { pad } else { 1.0 };
     let range = if plot.from_zero && lowest == 0.0 { 0.0..highest + pad } else { lowest - pad..highest + pad };
     (range.start.is_finite() && range.end.is_finite()).then_some(range)
 }
@@ -254,6 +255,13 @@ mod tests {
             assert!(frames.start < frames.end);
             assert!(svg(&plot).is_some());
         }
+    }
+
+    #[test]
+    fn equal_figures_have_labels_of_few_digits() {
+        let (equal, plot) = (100.0, |value| plot(vec![(1, Some(value)), (2, Some(value))]));
+        let range = value_range(&Plot { from_zero: false, ..plot(equal) }).expect("a range");
+        assert!(decimals(range.end - range.start) <= 1, "{range:?}");
     }
 
     #[test]

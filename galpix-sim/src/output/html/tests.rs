@@ -38,6 +38,7 @@ fn story(name: &str, frames: u32) -> Story {
             total_px: 0.84375,
             holds: true,
             per_frame_px,
+            prop: 16,
         }),
         film_apng: crate::output::film::apng(
             &[crate::picture::Picture::filled(3, 2, [9; 3])],
@@ -45,6 +46,7 @@ fn story(name: &str, frames: u32) -> Story {
             crate::output::film::Colours::Exact,
         )
         .expect("a film"),
+        heat: None,
         rows: (1..=frames).map(row).collect(),
         notes: vec!["The pole is thin.".to_owned()],
     }
@@ -162,7 +164,7 @@ fn a_story_has_its_film_plots_certificate_and_table() {
     let html = html(&report(vec![story("pan", 16)]));
     assert!(html.contains("<img width=\"3\" height=\"2\""));
     assert_eq!(html.matches("<svg class=\"plot\"").count(), 3);
-    assert!(html.contains("Keeps the paper\u{2019}s one-pixel promise: 0.8438\u{00A0}px."));
+    assert!(html.contains("keeps the paper\u{2019}s one-pixel promise: at most 0.8438\u{00A0}px up to frame 16."));
     assert!(html.contains("is 1.6000\u{00A0}px, past the bound of its frame first in frame 6"));
     assert!(html.contains("certified bound"));
     assert_eq!(html.matches("<tr><td>").count(), 16);
@@ -179,7 +181,7 @@ fn overview_and_table_have_the_measures_that_every_table_has() {
         ("missing %", "42.50", "10.00"),
     ] {
         assert!(html.contains(&format!("<td data-name=\"{name}\"><span>{mean}</span></td>")), "{name}: {mean}");
-        assert_eq!(html.matches(&format!("<th>{name}</th>")).count(), 2, "{name}");
+        assert_eq!(html.matches(&format!(">{name}</th>")).count(), 2, "{name}");
         assert!(html.contains(&format!("<td>{of_frame_2}</td>")), "{name}: {of_frame_2}");
     }
 }
@@ -189,8 +191,23 @@ fn a_promise_not_kept_is_said() {
     let mut story = story("pan", 4);
     story.certificate = Some(CertificateLine { total_px: 1.46875, holds: false, ..CertificateLine::default() });
     let html = html(&report(vec![story]));
-    assert!(html.contains("Does not keep the paper\u{2019}s one-pixel promise: 1.4688\u{00A0}px."));
+    assert!(html.contains("does not keep the paper\u{2019}s one-pixel promise: at most 1.4688\u{00A0}px."));
     assert!(html.contains("is 0.4000\u{00A0}px; each frame is inside"));
+}
+
+/// A promise of the arithmetic is none of what is seen where the true motion leaves the path.
+#[test]
+fn what_no_certificate_covers_is_said_beside_the_promise() {
+    let mut story = story("near-plane", 4);
+    story.rows[3].truth_error_px = Some(22.3);
+    let html = html(&report(vec![story.clone()]));
+    assert!(
+        html.contains("<p class=\"promise poor\">") && html.contains("up to 22.3000\u{00A0}px from the true motion"),
+        "{html}"
+    );
+    story.rows[3].truth_error_px = Some(0.45);
+    let html = super::html(&report(vec![story]));
+    assert!(html.contains("<p class=\"promise good\">") && html.contains("at most 0.4500\u{00A0}px."));
 }
 
 #[test]
@@ -223,7 +240,12 @@ fn a_summary_is_of_the_frames_compared() {
     assert_eq!((summary.measures.psnr_inside_db, summary.measures.missing_percent), (Some(41.0), Some(10.0)));
     assert_eq!(summary.gain_db, Some(10.0));
     assert_eq!(summary.worst_px, Some(0.4)); // of all frames
-    assert_eq!((summary.bound_px, summary.standing), (Some(0.84375), Some(Standing::Inside)));
+    assert_eq!(
+        (summary.bound_px, summary.standing),
+        (Some(0.4 + 0.02 * 4.0), Some(Standing::Inside)),
+        "of these frames"
+    );
+    assert_eq!(summary.truth_px, None);
     assert_eq!(summary.ns_per_galpixel, Some(2.5)); // median of 1, 2, 3, 4
     assert_eq!(Summary::of(&Story::default()), Summary::default());
 }

@@ -11,6 +11,7 @@ mod offered;
 mod surfaces;
 
 use galpix_core::Dynamic;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 pub use cull::{Culling, culling};
@@ -112,7 +113,7 @@ pub struct Carried {
 }
 
 /// What a run with samples behind the first layer reports.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct HiddenReport {
     /// What was handed over.
     #[serde(rename = "way")]

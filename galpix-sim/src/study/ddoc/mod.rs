@@ -20,11 +20,13 @@ pub mod worlds;
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use galpix_core::SetupError;
 use galpix_core::ddoc::{MOST_RADIUS, SYMMETRIC, Settings};
 
+pub use self::columns::LEGEND;
 use self::import::ImportError;
 use self::missing::Missing;
 use self::pictures::Pictures;
@@ -37,6 +39,7 @@ use crate::output::column::Table;
 use crate::output::save::file_name;
 use crate::source::ddoc::distortion;
 use crate::source::scene;
+use crate::suggest;
 
 /// The sides of reference images that are possible, pixels.
 pub const SIZES: std::ops::RangeInclusive<usize> = 64..=2048;
@@ -83,7 +86,7 @@ impl Request {
 }
 
 /// A world as it was seen.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Seen {
     /// Its figures.
     #[serde(flatten)]
@@ -102,6 +105,7 @@ impl Study for Request {
     type Report = Seen;
     type Extra = NoExtra;
 
+    const NAME: &'static str = "ddoc";
     const SECONDS: bool = false;
 
     fn name<'a>(&self, world: &'a World) -> &'a str {
@@ -157,10 +161,12 @@ impl Study for Request {
 #[derive(Debug, thiserror::Error)]
 pub enum DdocError {
     /// No world, scene or file has the name.
-    #[error("`{name}` is no world: give a built-in scene, one of {known}, or the path of an OBJ file")]
+    #[error("`{name}` is no world{hint}: give a built-in scene, one of {known}, or the path of an OBJ file")]
     Unknown {
         /// What was asked for.
         name: String,
+        /// What may have been meant, if anything.
+        hint: String,
         /// The worlds that are no scenes.
         known: String,
     },
@@ -191,8 +197,10 @@ pub fn open(name: &str) -> Result<World, DdocError> {
     if import::is_object(name) {
         return Ok(import::obj(Path::new(name))?);
     }
-    let name = name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
-    Err(DdocError::Unknown { name, known: worlds::names().join(", ") })
+    let name: String = name.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    let hint =
+        suggest::hint(&name, worlds::names().iter().copied().chain(scene::all().iter().map(|scene| scene.name())));
+    Err(DdocError::Unknown { name, hint, known: worlds::names().join(", ") })
 }
 
 /// Takes both images of a world, warps them to the views of the cube, and counts what is missing.

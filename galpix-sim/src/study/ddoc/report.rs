@@ -1,5 +1,6 @@
 //! The study's figures, as they are printed and written.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Request;
@@ -8,7 +9,7 @@ use super::reference::Ddoc;
 use super::world::World;
 
 /// Seconds for a DDOC image.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Seconds {
     /// The plain z-buffer.
     pub z_buffer: f64,
@@ -21,7 +22,7 @@ pub struct Seconds {
 }
 
 /// One world.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SourceReport {
     /// Its name.
     pub source: String,

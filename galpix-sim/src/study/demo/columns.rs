@@ -22,27 +22,55 @@ impl Measured for SceneReport {
     }
 }
 
+/// Returns a figure of the last frame whose truth is known.
+fn last(scene: &SceneReport, of: fn(&TruthReport) -> f64) -> Value {
+    scene.run.frames.iter().rev().find_map(|frame| frame.truth.as_ref().map(of)).into()
+}
+
 /// Returns the columns.
 pub fn columns() -> Vec<Column<SceneReport>> {
     let column = Column::<SceneReport>::new;
     let mut columns = vec![
         column(|scene| scene.run.source.as_str().into()).terminal("scene", 0).words(),
-        column(|scene| scene.run.frames.len().into()).terminal("frames", 0),
-        column(|scene| scene.measures().psnr_db.into()).terminal("galpix dB", 2),
-        column(|scene| decibels(scene, |truth| truth.psnr_hold_db)).terminal("hold dB", 2),
-        column(|scene| decibels(scene, |truth| truth.psnr_known_db)).terminal("known dB", 2),
+        column(|scene| scene.run.frames.len().into()).terminal("frames", 0).means("frames made of one update"),
+        column(|scene| scene.measures().psnr_db.into()).terminal("galpix dB", 2).means(
+            "PSNR of what is shown against the truth; all but worst figures are means over the frames with a truth",
+        ),
+        column(|scene| decibels(scene, |truth| truth.psnr_hold_db))
+            .terminal("hold dB", 2)
+            .means("the same of sample-and-hold: the update, unmoved"),
+        column(|scene| decibels(scene, |truth| truth.psnr_known_db))
+            .terminal("reached dB", 2)
+            .means("PSNR of the cells that a galpixel of the update reached: all but those of missing %"),
     ];
     columns.extend(measures::columns());
+    // Beside the mean: a mean hides how little is left at the end.
+    let at_end = column(|scene| last(scene, |truth| truth.missing_percent));
+    columns.insert(6, at_end.terminal("at end %", 2).means("the same in the last frame"));
+    columns.extend(places());
     columns.extend([
-        column(|scene| worst(scene, |position| Some(position.worst_px))).terminal("worst px", 4),
-        column(|scene| scene.run.certificate.after(scene.run.frames.len() as u32).into()).terminal("bound px", 4),
-        column(|scene| worst(scene, |position| position.truth_worst_px)).terminal("truth px", 4),
-        column(|scene| scene.run.ns_per_galpixel.into()).terminal("ns/gal", 1),
-        column(|scene| scene.gain.into()).terminal("x const", 1),
+        column(|scene| scene.run.ns_per_galpixel.into())
+            .terminal("ns/gal", 1)
+            .means("nanoseconds a galpixel moved, the median of the frames"),
+        column(|scene| scene.gain.into())
+            .terminal("x const", 1)
+            .means("time of a constant-time frame by that of a data-dependent one; the map only"),
     ]);
     columns
 }
 
-/// What the columns are.
-pub const LEGEND: &str = "dB, change, judder, missing: means over the frames whose truth is known. worst px: from the exact second-order path, bounded by bound px; \
-truth px: from the true motion. x const: time of a constant-time frame / of a data-dependent one.";
+/// Returns the columns of where galpixels are.
+fn places() -> [Column<SceneReport>; 3] {
+    let column = Column::<SceneReport>::new;
+    [
+        column(|scene| worst(scene, |position| Some(position.worst_px)))
+            .terminal("path px", 4)
+            .means("the worst distance of a galpixel from the update's second-order path, before the snap to a cell"),
+        column(|scene| scene.run.certificate.after(scene.run.frames.len() as u32).into())
+            .terminal("bound px", 4)
+            .means("the certificate for that distance in these frames; up to tau_prop it is larger"),
+        column(|scene| worst(scene, |position| position.truth_worst_px))
+            .terminal("truth px", 4)
+            .means("the worst distance from the true motion: what no certificate covers"),
+    ]
+}

@@ -3,25 +3,17 @@
 mod columns;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::job::{ExperimentError, Job, Request};
-use super::run::{self, FrameReport, RunReport, Shown};
+use super::run::{self, RunReport};
+use super::story::Film;
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
-use crate::certificate::FrameBound;
 use crate::engine::Scheme;
-use crate::output::column::Table;
-use crate::output::film::{self, Colours};
-use crate::output::html::{self, CertificateLine, Report, Row, Story};
-use crate::output::measures::{self, Measured};
-use crate::picture::Picture;
+use crate::output::column::{self, Table};
+use crate::output::html::{self, Report, Story};
 use crate::source::Source;
-
-/// A film's frame is shown for this long.
-const FRAME_MS: u16 = 120;
-
-/// A film may be this large before its colours are counted.
-const FILM_BYTES: usize = 1_000_000;
 
 /// Frames of each scene that are made again in both modes, to compare their times.
 const FRAMES_FOR_GAIN: u32 = 5;
@@ -37,10 +29,15 @@ pub struct Plan {
 }
 
 /// All sources after their runs.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct Demonstration {
-    #[serde(skip)]
     scenes: Vec<SceneReport>,
+}
+
+/// Returns what the columns are.
+#[must_use]
+pub fn legend() -> String {
+    column::legend(&columns::columns())
 }
 
 impl Study for Plan {
@@ -49,6 +46,8 @@ impl Study for Plan {
     type Job<'s> = Vec<Job<'s>>;
     type Report = Demonstration;
     type Extra = NoExtra;
+
+    const NAME: &'static str = "demo";
 
     fn name<'a>(&self, _sources: &'a Vec<Source>) -> &'a str {
         "demo"
@@ -69,7 +68,7 @@ impl Study for Plan {
     }
 
     fn legends(&self) -> Vec<String> {
-        vec![columns::LEGEND.to_owned(), measures::legend()]
+        vec![legend()]
     }
 
     fn text(&self, report: &Demonstration) -> String {
@@ -104,25 +103,29 @@ impl Study for Plan {
 }
 
 /// A source after its run.
+#[derive(Serialize, JsonSchema)]
 struct SceneReport {
+    #[serde(flatten)]
     run: RunReport,
+    #[serde(skip)]
     story: Story,
     /// The time of a constant-time frame divided by that of a data-dependent one; `None` in the scheme of stationary
     /// sources, which has no constant-time frame.
+    #[serde(rename = "x_constant")]
     gain: Option<f64>,
 }
 
 /// Runs a source and makes its story.
 fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport, ExperimentError> {
     let other = (job.source.name() == IN_BOTH_SCHEMES).then_some(job.request.scheme.other());
-    let mut in_other = Vec::new();
+    let mut film = Film::default();
     if let Some(scheme) = other {
-        run::job(&job.with_scheme(scheme), |shown| in_other.push(shown.picture.clone()))?;
+        let mut pictures = Vec::new();
+        run::job(&job.with_scheme(scheme), |shown| pictures.push(shown.picture.clone()))?;
+        film = Film::beside(scheme, pictures);
     }
-    let mut pictures = Vec::new();
     let run = run::job(job, |shown| {
-        let in_other = other.zip(in_other.get(shown.frame as usize));
-        pictures.extend(panels(shown, in_other.map(|(scheme, picture)| (picture, scheme.name()))));
+        film.see(shown);
         done(Work::Done);
     })?;
     let gain = match job.request.scheme {
@@ -144,93 +147,6 @@ fn report(job: &Job<'_>, done: &(dyn Fn(Work<'_>) + Sync)) -> Result<SceneReport
             scheme.name()
         ));
     }
-    if run.loaded.saturated > 0 {
-        notes.push(format!("{} fields of the update were clamped to their range.", run.loaded.saturated));
-    }
-    let film_apng = match film::apng_within(&pictures, FRAME_MS, FILM_BYTES) {
-        Ok((film, colours)) => {
-            if matches!(colours, Colours::Palette) {
-                notes.push("The film above has 256 colours; every figure comes from the full ones.".to_owned());
-            }
-            film
-        }
-        Err(error) => {
-            notes.push(format!("There is no film: {error}."));
-            Vec::new()
-        }
-    };
-    let story = Story {
-        name: run.source.clone(),
-        about: job.source.about().to_owned(),
-        width: run.width,
-        height: run.height,
-        budget_line: budget_line(&run),
-        rounding: run.rounding.to_owned(),
-        fill: run.fill.to_owned(),
-        certificate: Some(CertificateLine {
-            quantisation_px: run.certificate.quantisation_px,
-            drift_px: run.certificate.drift_px,
-            total_px: run.certificate.total_px,
-            holds: run.certificate.keeps_one_pixel(),
-            per_frame_px: std::iter::once(0.0).chain(run.certificate.frames.iter().map(FrameBound::total_px)).collect(),
-        }),
-        film_apng,
-        rows: run.frames.iter().map(row).collect(),
-        notes,
-    };
+    let story = film.story(job.source.about(), &run, notes);
     Ok(SceneReport { run, story, gain })
-}
-
-fn budget_line(run: &RunReport) -> String {
-    let budget = &run.budget;
-    format!(
-        "D = {} px, tau_recog = {}, tau_prop = {}: velocity {}+{}, acceleration {}+{}, position +{} bits; {} bytes a galpixel",
-        budget.extent,
-        budget.recog,
-        budget.prop,
-        budget.velocity_int_bits,
-        budget.velocity_frac_bits,
-        budget.acceleration_int_bits,
-        budget.acceleration_frac_bits,
-        budget.position_frac_bits,
-        budget.stored_bytes_per_galpixel
-    )
-}
-
-/// Truth, sample-and-hold, galpix, the other scheme where there is one, and the difference of galpix, side by side;
-/// frames without a truth are left out.
-fn panels<'p>(shown: &Shown<'p>, in_other: Option<(&'p Picture, &'p str)>) -> Option<Picture> {
-    let truth = &shown.truth?.picture;
-    let difference = film::difference(shown.picture, truth);
-    let pictures = [
-        Some((truth, "truth")),
-        Some((shown.hold, "sample-and-hold")),
-        Some((shown.picture, "galpix")),
-        in_other,
-        Some((&difference, "difference x4")),
-    ];
-    let panels: Vec<Picture> =
-        pictures.into_iter().flatten().map(|(picture, label)| film::labelled(picture, label)).collect();
-    Some(film::side_by_side(&panels.iter().collect::<Vec<_>>(), 4))
-}
-
-fn row(frame: &FrameReport) -> Row {
-    let truth = frame.truth.as_ref();
-    Row {
-        frame: frame.frame,
-        measures: frame.measures(),
-        psnr_hold_db: truth.and_then(|truth| truth.psnr_hold_db),
-        psnr_known_db: truth.and_then(|truth| truth.psnr_known_db),
-        position_error_px: frame.position.map(|position| position.worst_px),
-        mean_position_error_px: frame.position.map(|position| position.mean_px),
-        truth_error_px: frame.position.and_then(|position| position.truth_worst_px),
-        holes: frame.holes.into(),
-        filled: frame.filled.into(),
-        lost: frame.lost.into(),
-        collided: frame.collided.into(),
-        saturated: frame.saturated.into(),
-        bullets: frame.bullets.into(),
-        unobscured: (frame.debris + frame.galdebris).into(),
-        ns_per_galpixel: Some(frame.ns_per_galpixel),
-    }
 }

@@ -8,6 +8,7 @@
 //! Cells that nothing reached are holes, and count in the squared error of the picture.
 
 use galpix_core::{Bits, Dynamic, Layout, Settings};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::design::Configuration;
@@ -21,7 +22,7 @@ use crate::study::cells::Cells;
 use crate::update::Truth;
 
 /// A frame, by cause. Places in pixels, means over the galpixels of the update that are still there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct FrameCauses {
     /// Frames since the update.
     pub frame: u32,

@@ -62,6 +62,11 @@ impl<'r> Row<'r> {
         self.of(|point| point.compile_time.map(of))
     }
 
+    /// Returns how far that time is from its median at most, in per cent.
+    fn compiled_percent(&self) -> Value {
+        self.of(|point| point.compile_time.map(|time| time.uncertain_percent()))
+    }
+
     /// Returns the time of the simulator's form.
     fn run(&self, of: fn(Time) -> f64) -> Value {
         self.of(|point| point.run_time.map(of))
@@ -94,14 +99,33 @@ pub fn columns<'r>() -> Vec<Column<Row<'r>>> {
 fn kinds<'r>() -> [Column<Row<'r>>; 9] {
     [
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
-        Column::new(|row: &Row| row.of(|point| point.id)).csv("id").terminal("no", 0),
+        Column::new(|row: &Row| row.of(|point| point.id)).csv("id").terminal("no", 0).means("the number of the point"),
         Column::new(|row: &Row| row.name.as_str().into()).page("", 0),
-        Column::new(|row: &Row| row.scheme()).csv("scheme").both("scheme", 0).words(),
-        Column::new(|row: &Row| row.of(|point| point.fields)).csv("lanes").both("lanes", 0).words(),
+        Column::new(|row: &Row| row.scheme())
+            .csv("scheme")
+            .both("scheme", 0)
+            .words()
+            .means("galpix: the map; source: stationary sources; f32: the map in floats"),
+        Column::new(|row: &Row| row.of(|point| point.fields))
+            .csv("lanes")
+            .both("lanes", 0)
+            .words()
+            .means("the fields that a galpixel carries"),
         Column::new(|row: &Row| row.of(|point| point.budget.as_str())).csv("budget"),
-        Column::new(|row: &Row| row.budget()).both("budget", 0).words(),
-        Column::new(|row: &Row| row.of(|point| point.rounding)).csv("rounding").both("rounding", 0).words(),
-        Column::new(|row: &Row| row.of(|point| point.fill)).csv("rung").both("rung", 0).words(),
+        Column::new(|row: &Row| row.budget())
+            .both("budget", 0)
+            .words()
+            .means("how its widths differ from those of the equations, in bits"),
+        Column::new(|row: &Row| row.of(|point| point.rounding))
+            .csv("rounding")
+            .both("rounding", 0)
+            .words()
+            .means("how positions are rounded"),
+        Column::new(|row: &Row| row.of(|point| point.fill))
+            .csv("rung")
+            .both("rung", 0)
+            .words()
+            .means("what is put into holes: the fill mode"),
     ]
 }
 
@@ -112,59 +136,80 @@ fn widths<'r>() -> [Column<Row<'r>>; 7] {
         Column::new(|row: &Row| row.bits(2)).csv("velocity_frac_bits"),
         Column::new(|row: &Row| row.bits(3)).csv("acceleration_int_bits"),
         Column::new(|row: &Row| row.bits(4)).csv("acceleration_frac_bits"),
-        Column::new(|row: &Row| row.of(|point| point.bytes)).csv("bytes").both("bytes", 0),
+        Column::new(|row: &Row| row.of(|point| point.bytes))
+            .csv("bytes")
+            .both("bytes", 0)
+            .means("of a stored galpixel, in whole words"),
         Column::new(|row: &Row| row.of(|point| point.used_bits)).csv("used_bits"),
     ]
 }
 
-fn times<'r>() -> [Column<Row<'r>>; 7] {
+fn times<'r>() -> [Column<Row<'r>>; 12] {
     [
         Column::new(|row: &Row| row.compiled(|time| time.frame_us))
             .csv("compile_time_us")
-            .terminal("us/frame", 1)
-            .page("\u{00B5}s a frame", 0),
+            .both("us/frame", 1)
+            .means("time of a frame with the budget fixed at compile time, by a stand-in: the median of the rounds"),
+        Column::new(|row: &Row| row.compiled_percent())
+            .both("+- %", 0)
+            .means("half the range of the rounds, of the median: times that differ by less are not told apart"),
+        Column::new(|row: &Row| row.compiled(|time| time.frame_us_range[0])).csv("compile_time_us_low"),
+        Column::new(|row: &Row| row.compiled(|time| time.frame_us_range[1])).csv("compile_time_us_high"),
         Column::new(|row: &Row| row.compiled(|time| time.ns_per_cell)).csv("compile_time_ns_per_cell"),
         Column::new(|row: &Row| row.compiled(|time| time.x_copy))
             .csv("compile_time_x_copy")
-            .terminal("x copy", 2)
-            .page("\u{00D7} copy", 1),
+            .both("x copy", 2)
+            .means("that time by a copy of as many bytes as the map has"),
         Column::new(|row: &Row| row.of(|point| point.stand_in.clone())).csv("stand_in"),
         Column::new(|row: &Row| row.run(|time| time.frame_us))
             .csv("run_time_us")
-            .terminal("run-time", 1)
-            .page("run-time form, \u{00B5}s", 0),
+            .both("run-time us", 1)
+            .means("time of a frame with the budget chosen at run time, as the simulator runs it"),
+        Column::new(|row: &Row| row.run(|time| time.frame_us_range[0])).csv("run_time_us_low"),
+        Column::new(|row: &Row| row.run(|time| time.frame_us_range[1])).csv("run_time_us_high"),
         Column::new(|row: &Row| row.run(|time| time.ns_per_cell)).csv("run_time_ns_per_cell"),
         Column::new(|row: &Row| row.run(|time| time.x_copy)).csv("run_time_x_copy"),
     ]
 }
 
-/// Returns the columns of the results of the frames. On the page the mean follows the bound.
+/// Returns the columns of the results of the frames: the bound first, by which the fronts are ranked.
 fn errors<'r>() -> [Column<Row<'r>>; 11] {
     [
-        Column::new(|row: &Row| row.summary(|all| all.worst_px)).csv("worst_px").both("worst px", 4),
-        Column::new(|row: &Row| row.summary(|all| all.mean_px)).csv("mean_px"),
         Column::new(|row: &Row| row.summary(|all| all.certified_px)).csv("certified_px"),
         Column::new(|row: &Row| row.summary(|all| all.bound_px))
             .csv("bound_px")
-            .terminal("bound px", 4)
-            .page("at most px", 4),
-        Column::new(|row: &Row| row.summary(|all| all.mean_px)).page("mean px", 4),
+            .both("bound px", 4)
+            .means("the certificate and what fields that are left out would have moved: ranks the fronts"),
+        Column::new(|row: &Row| row.summary(|all| all.worst_px))
+            .csv("worst_px")
+            .both("path px", 4)
+            .means("the worst distance measured from the second-order path, in the frames looked at"),
+        Column::new(|row: &Row| row.summary(|all| all.mean_px)).csv("mean_px"),
         Column::new(|row: &Row| row.summary(|all| all.truth_worst_px))
             .csv("truth_worst_px")
-            .terminal("truth px", 4)
-            .page("worst, true motion px", 3),
+            .both("truth px", 4)
+            .means("the worst distance from the true motion, where that is known: what no certificate covers"),
         Column::new(|row: &Row| row.summary(|all| all.truth_mean_px)).csv("truth_mean_px"),
-        Column::new(|row: &Row| row.measures().psnr_db.into()).csv("psnr_db").terminal("PSNR", 2).page("PSNR dB", 2),
+        Column::new(|row: &Row| row.measures().psnr_db.into())
+            .csv("psnr_db")
+            .both("PSNR dB", 2)
+            .means("of the whole picture; like all that follow a mean over the pictures compared"),
+        Column::new(|row: &Row| row.summary(|all| all.ssim))
+            .csv("ssim")
+            .both("SSIM", 4)
+            .means("structural similarity, 1 for equals"),
+        Column::new(|row: &Row| row.summary(|all| all.flip)).csv("flip").both("FLIP", 4).means("0 for equals"),
+        Column::new(|row: &Row| row.of(|point| point.saturated))
+            .csv("saturated")
+            .page("clamped", 0)
+            .means("fields that a range had to stop: their galpixels are outside of the certificate"),
         Column::new(|row: &Row| row.summary(|all| all.psnr_known_db)).csv("psnr_known_db"),
-        Column::new(|row: &Row| row.summary(|all| all.ssim)).csv("ssim").both("SSIM", 4),
-        Column::new(|row: &Row| row.summary(|all| all.flip)).csv("flip").both("FLIP", 4),
     ]
 }
 
 /// Returns the columns of what was found of the errors.
-fn verdicts<'r>() -> [Column<Row<'r>>; 4] {
+fn verdicts<'r>() -> [Column<Row<'r>>; 3] {
     [
-        Column::new(|row: &Row| row.of(|point| point.saturated)).csv("saturated"),
         Column::new(|row: &Row| row.on(&row.source.fronts.position)).csv("front_position"),
         Column::new(|row: &Row| row.on(&row.source.fronts.picture)).csv("front_picture"),
         Column::new(|row: &Row| row.on(&row.source.fronts.bytes)).csv("front_bytes"),

@@ -43,7 +43,7 @@ fn marks(source: &SourceReport, at: Figures<'_>, front: &[usize], bounds: bool) 
         let place = front.iter().position(|&id| id == point.id);
         Some(Mark {
             at: at(point)?,
-            bound: point.summary.bound_px.filter(|_| bounds),
+            bound: point.summary.worst_px.filter(|_| bounds),
             radius: radius(point.bytes),
             ink: ink(point),
             shape: shape(point),
@@ -65,22 +65,22 @@ fn marks(source: &SourceReport, at: Figures<'_>, front: &[usize], bounds: bool) 
 fn position(source: &SourceReport, compiled: bool) -> Markup {
     let at = |point: &Point| {
         let time = if compiled || point.scheme == Scheme::F32 { point.compile_time } else { point.run_time };
-        Some((time?.frame_us, point.summary.worst_px?))
+        Some((time?.frame_us, point.at_most_px().or(point.summary.worst_px)?))
     };
     let front: &[usize] = if compiled { &source.fronts.position } else { &[] };
     let (marks, stair) = marks(source, &at, front, true);
     let form = if compiled { "budget fixed at compile time" } else { "budget chosen at run time" };
     let plot = Scatter {
-        description: format!("{}: worst position error against the time of a frame, {form}", source.source),
+        description: format!("{}: certified position error against the time of a frame, {form}", source.source),
         x: (format!("time of a frame, \u{00B5}s ({form})"), Scale::Log { floor: 0.01 }),
-        y: ("worst position error, px".to_owned(), Scale::Log { floor: FLOOR_PX }),
+        y: ("certified position error, px".to_owned(), Scale::Log { floor: FLOOR_PX }),
         courses: vec![stair],
         marks,
     };
     let (title, remark) = if compiled {
         (
             "Position error against time",
-            "Below: galpixels of the update against the exact second-order path. Points above each other take the same time: \
+            "What a galpixel can at most be away from its second-order path; of floats, the worst measured. Points above each other take the same time: \
              bits within the same words are free.",
         )
     } else {
@@ -110,12 +110,12 @@ fn picture(source: &SourceReport) -> Markup {
 }
 
 fn bytes(source: &SourceReport) -> Markup {
-    let at = |point: &Point| Some((point.bytes as f64, point.summary.worst_px?));
+    let at = |point: &Point| Some((point.bytes as f64, point.at_most_px().or(point.summary.worst_px)?));
     let (marks, stair) = marks(source, &at, &source.fronts.bytes, true);
     let plot = Scatter {
-        description: format!("{}: worst position error against bytes a galpixel", source.source),
+        description: format!("{}: certified position error against bytes a galpixel", source.source),
         x: ("bytes a galpixel".to_owned(), Scale::Linear),
-        y: ("worst position error, px".to_owned(), Scale::Log { floor: FLOOR_PX }),
+        y: ("certified position error, px".to_owned(), Scale::Log { floor: FLOOR_PX }),
         courses: vec![stair],
         marks,
     };

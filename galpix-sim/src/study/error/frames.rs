@@ -1,5 +1,6 @@
 //! The error of frames: of each that was looked at, and of all of them in one.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::metric::measures::Measures;
@@ -8,7 +9,7 @@ use crate::study::run::TruthReport;
 
 /// A frame that was looked at. Positions are those of galpixels of the update, before the snap to a cell, the worse of
 /// x and y.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FrameError {
     /// Frames since the update.
     pub frame: u32,
@@ -56,7 +57,7 @@ impl FrameError {
 
 /// All frames of a point in one figure each: worst positions and bounds are the largest, the others means over the
 /// frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// See [`FrameError::worst_px`].
     pub worst_px: Option<f64>,

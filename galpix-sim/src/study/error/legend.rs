@@ -70,6 +70,6 @@ pub fn key(source: &SourceReport, bounds: bool) -> Markup {
         }
         @for bytes in ends { (mark_key(&format!("{bytes} bytes"), Shape::Disc, Ink::Axis, radius(bytes))) }
         (line_key("front", Ink::Guide, false))
-        @if bounds { (line_key("at most", Ink::Bound, false)) }
+        @if bounds { (line_key("worst measured", Ink::Bound, false)) }
     }
 }

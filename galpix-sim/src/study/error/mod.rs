@@ -34,7 +34,7 @@ use super::timing::Effort;
 use super::{File, Found, NoExtra, Silent, Stage, Study, StudyError, Work};
 use crate::engine;
 use crate::engine::fill::Fill;
-use crate::output::{column, measures};
+use crate::output::column;
 use crate::source::Source;
 use crate::update::{Known, Update};
 use design::{Axes, Extent, Kept, Step};
@@ -62,11 +62,19 @@ pub struct Plan {
 /// Everything that was measured.
 pub type Document = super::Document<NoExtra, SourceReport>;
 
+/// Returns what the columns are.
+#[must_use]
+pub fn legend() -> String {
+    column::legend(&columns::columns())
+}
+
 impl Study for Plan {
     type Source = Source;
     type Job<'s> = Job<'s>;
     type Report = SourceReport;
     type Extra = NoExtra;
+
+    const NAME: &'static str = "error";
 
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
@@ -85,7 +93,7 @@ impl Study for Plan {
     }
 
     fn legends(&self) -> Vec<String> {
-        vec![measures::legend()]
+        vec![legend()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -126,7 +134,7 @@ impl Plan {
 }
 
 /// Cells that are timed in a round, for one configuration.
-const TIMED_CELLS: usize = 1_500_000;
+const TIMED_CELLS: usize = 1_000_000;
 /// A source with at least so many cells is measured sparingly unless more is requested.
 const LARGE: usize = 100_000;
 
@@ -152,7 +160,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
     let axes = plan.axes(update);
     let cells = update.samples.len();
     let effort = Effort {
-        rounds: if cells > LARGE { 2 } else { 3 },
+        rounds: if cells > LARGE { 3 } else { 5 },
         frames: frames.min((TIMED_CELLS / cells.max(1)).clamp(4, 12) as u32),
     };
     let ranges = Ranges::of(update, frames);
@@ -166,7 +174,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
         }
         extent => extent,
     };
-    let points = run.points(&axes.design(extent), &mut left_out, notify)?;
+    let (points, noise) = run.points(&axes.design(extent), &mut left_out, notify)?;
 
     let middle = axes.middle();
     let job = job.with_rounding(middle.rounding).with_scheme(middle.scheme).with_fill(middle.fill);
@@ -200,6 +208,7 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
         looked_at: reference.looked.clone(),
         pictures: reference.pictures(),
         effort,
+        noise,
         fronts: fronts(&points),
         points,
         hold,
@@ -210,20 +219,34 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
     })
 }
 
-/// Returns the three fronts, as numbers of points. Floats are not among them.
+/// Returns the three fronts, as numbers of points. Floats are not among them. Position errors are ranked by what they
+/// can be at most: what was measured on one source may have been luck.
 fn fronts(points: &[Point]) -> Fronts {
     type Cost<'c> = &'c dyn Fn(&Point) -> (Option<f64>, Option<f64>);
     let front = |cost: Cost<'_>| {
         let cost = |point: &Point| if point.scheme == Scheme::F32 { (None, None) } else { cost(point) };
         let costs: Vec<_> = points.iter().map(cost).collect();
-        pareto::front(&costs).into_iter().map(|index| points[index].id).collect()
+        pareto::front(&costs).into_iter().map(|index| points[index].id).collect::<Vec<usize>>()
     };
     let time = |point: &Point| point.compile_time.map(|time| time.frame_us);
+    let position = front(&|point| (time(point), point.at_most_px()));
+    let picture = front(&|point| (time(point), point.summary.flip));
     Fronts {
-        position: front(&|point| (time(point), point.summary.worst_px)),
-        picture: front(&|point| (time(point), point.summary.flip)),
-        bytes: front(&|point| (Some(point.bytes as f64), point.summary.worst_px)),
+        position_not_told_apart: not_told_apart(points, &position),
+        picture_not_told_apart: not_told_apart(points, &picture),
+        position,
+        picture,
+        bytes: front(&|point| (Some(point.bytes as f64), point.at_most_px())),
     }
+}
+
+/// Returns the neighbours on a front of time whose times overlap: which of the two is quicker is not known.
+fn not_told_apart(points: &[Point], front: &[usize]) -> Vec<[usize; 2]> {
+    let time = |id: usize| points.iter().find(|point| point.id == id)?.compile_time;
+    let overlap = |pair: &[usize; 2]| {
+        time(pair[0]).zip(time(pair[1])).is_some_and(|(first, second)| !first.is_told_apart(&second))
+    };
+    front.windows(2).map(|pair| [pair[0], pair[1]]).filter(overlap).collect()
 }
 
 /// Returns what was left out and what cannot be known, a sentence each.

@@ -4,9 +4,8 @@ use maud::{Markup, PreEscaped, html};
 
 use super::Document;
 use super::columns::{Row, columns};
-use super::figures;
-use super::rates::Rate;
 use super::report::{Point, Scheme, SourceReport};
+use super::{figures, text};
 use crate::output::column;
 use crate::output::html::text::figure;
 use crate::output::html::{self as page, Head};
@@ -30,13 +29,15 @@ pub fn html(document: &Document) -> String {
 }
 
 const READING: &str = "\
-<li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median, relative to a memory copy of \
-the same bytes in the same run (<b>\u{00D7} copy</b>). It was measured with a stand-in of the same fields and the nearest number \
+<li><b>Time</b> is that of a product, whose budget is fixed at compile time, on one core: the median of rounds in which \
+all points take turns, with their range (<b>+- %</b>), also by a memory copy of the same bytes in the same run (<b>x copy</b>). It was measured with a stand-in of the same fields and the nearest number \
 of words, on the same pictures; single bits hardly matter to it. <b>Run-time form</b> is the simulator\u{2019}s own, with the \
 budget chosen at run time.</li>\
-<li><b>Position error</b> is that of the worst galpixel against the exact second-order path of the update, before the snap to a \
-cell. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick above a point</span> is what it can at most be: the certificate, \
-and what the fields that were left out would have moved. Galpixels that a range stopped are outside of it.</li>\
+<li><b>Certified position error</b> is what a galpixel can at most be away from the exact second-order path of the update, before \
+the snap to a cell: the certificate, and what the fields that were left out would have moved (more only where a range stopped a \
+galpixel and more was measured). By it points are ranked. The <span class=\"ink\" style=\"--ink:var(--bound)\">tick below a \
+point</span> is the worst that was measured here (<b>path px</b>); <b>truth px</b> is against the true motion, which no certificate \
+covers.</li>\
 <li><b>Picture error</b> is FLIP against the true picture, 0 for equals. <b>f32</b> is the same scheme in floats, a packed struct a pixel, timed as it is.</li>";
 
 const LEFT_OUT: [&str; 4] = [
@@ -52,6 +53,7 @@ fn section(index: usize, source: &SourceReport) -> Markup {
     let tags = [
         ("display", format!("{}\u{00D7}{}", source.width, source.height)),
         ("frames", source.frames.to_string()),
+        ("looked at", format!("positions of {}, pictures of {}", source.looked_at.len(), source.pictures.len())),
         (
             "derived budget",
             format!("D = {} px, tau_recog = {}, tau_prop = {}", demand.extent, demand.recog, demand.prop),
@@ -60,6 +62,7 @@ fn section(index: usize, source: &SourceReport) -> Markup {
     ];
     let body = html! {
         (gain(source))
+        (page::list(&text::doubts(source)))
         div class="plots two" { (figures::all(source)) }
         (fronts(source))
         details {
@@ -73,17 +76,9 @@ fn section(index: usize, source: &SourceReport) -> Markup {
 
 /// Returns what galpixels buy, in a sentence or two.
 fn gain(source: &SourceReport) -> Markup {
-    let better = |rate: &&Rate| rate.every > 1 && rate.hold_needs_every < rate.every;
-    let mut needed: Vec<u32> = source.rates.iter().filter(better).map(|rate| rate.hold_needs_every).collect();
-    needed.dedup();
-    let one_of = |every: u32| match every {
-        1 => "every frame".to_owned(),
-        every => every.to_string(),
-    };
-    let bought = needed.iter().map(|&needed| {
-        let rates = source.rates.iter().filter(better).filter(|rate| rate.hold_needs_every == needed);
-        let every: Vec<String> = rates.map(|rate| rate.every.to_string()).collect();
-        format!("an update in <strong>1 frame of {}</strong> as good as one in {}", every.join(" or "), one_of(needed))
+    let bought = source.rates.iter().filter_map(|rate| {
+        let equal = rate.hold_equals_every.filter(|&equal| equal < f64::from(rate.every))?;
+        Some(format!("<strong>1 in {}</strong> as good as 1 in {equal:.1}", rate.every))
     });
     let sentences: Vec<String> = bought.collect();
     // The oldest frame that sample-and-hold is as bad as at an earlier age already.
@@ -102,7 +97,8 @@ fn gain(source: &SourceReport) -> Markup {
     html! {
         @match (sentences.is_empty(), source.rates.is_empty()) {
             (false, _) => p class="promise good" {
-                "By mean FLIP over all frames, galpix makes " (PreEscaped(sentences.join("; "))) ", with sample-and-hold."
+                "One update in so many frames, by mean FLIP over all frames and interpolated between the rates below: galpix is with "
+                (PreEscaped(sentences.join(", with "))) " with sample-and-hold."
             },
             (true, true) => { @if let Some(text) = aged() { p class="promise good" { (PreEscaped(text)) "." } } },
             (true, false) => p class="promise poor" {
@@ -126,9 +122,9 @@ fn table<'p>(
 /// Returns the fronts, named as in the plots, with floats beneath.
 fn fronts(source: &SourceReport) -> Markup {
     let fronts = [
-        ("Time against the worst position error", &source.fronts.position),
+        ("Time against the certified position error", &source.fronts.position),
         ("Time against FLIP", &source.fronts.picture),
-        ("Bytes against the worst position error", &source.fronts.bytes),
+        ("Bytes against the certified position error", &source.fronts.bytes),
     ];
     let on = |front: &[usize]| -> Vec<&Point> {
         front.iter().filter_map(|id| source.points.iter().find(|point| point.id == *id)).collect()

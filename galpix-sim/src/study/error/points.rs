@@ -14,7 +14,7 @@ use crate::engine;
 use crate::engine::fill::Fill;
 use crate::study::Work;
 use crate::study::job::{ExperimentError, Request};
-use crate::study::timing::{Contender, Engine, Maker, Time, Whole, race};
+use crate::study::timing::{Contender, Engine, Maker, Noise, Race, Time, Whole, race};
 use crate::update::Update;
 
 /// A configuration whose budget exists.
@@ -74,7 +74,7 @@ impl Run<'_> {
         design: &[Configuration],
         left_out: &mut Vec<String>,
         notify: &(dyn Fn(Work<'_>) + Sync),
-    ) -> Result<Vec<Point>, ExperimentError> {
+    ) -> Result<(Vec<Point>, Option<Noise>), ExperimentError> {
         let mut candidates: Vec<Candidate> = Vec::new();
         for &configuration in design {
             match self.candidate(configuration) {
@@ -101,11 +101,11 @@ impl Run<'_> {
             })
             .collect::<Result<_, _>>()?;
         points.par_extend(floats.par_iter().map(|configuration| self.floats(configuration)));
-        self.time(&candidates, &floats, &mut points, notify);
+        let noise = self.time(&candidates, &floats, &mut points, notify);
         for (point, id) in points.iter_mut().zip(1..) {
             point.id = id;
         }
-        Ok(points)
+        Ok((points, noise))
     }
 
     /// Returns the fields of the candidates in floats, with the fill modes that floats have.
@@ -187,7 +187,7 @@ impl Run<'_> {
         floats: &[Configuration],
         points: &mut [Point],
         notify: &(dyn Fn(Work<'_>) + Sync),
-    ) {
+    ) -> Option<Noise> {
         let update = &self.reference.update;
         let mut makers: Vec<Maker<'_>> = Vec::new();
         for candidate in candidates {
@@ -214,7 +214,7 @@ impl Run<'_> {
             }
         }
         notify(Work::Ahead(makers.len() as u64 * u64::from(self.effort.rounds + 1)));
-        let times = race(update, self.effort, &makers, || notify(Work::Done));
+        let Race { times, noise } = race(update, self.effort, &makers, || notify(Work::Done));
         let (own, fixed_times) = times.split_at(candidates.len() + floats.len());
         for (index, (point, &time)) in points.iter_mut().zip(own).enumerate() {
             match candidates.get(index) {
@@ -228,6 +228,7 @@ impl Run<'_> {
                 None => point.compile_time = time,
             }
         }
+        noise
     }
 }
 

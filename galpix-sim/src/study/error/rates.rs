@@ -6,6 +6,7 @@
 //! instead.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::causes::Pair;
@@ -18,7 +19,7 @@ use crate::source::scene::{self, Scene};
 const EVERY: [u32; 6] = [1, 2, 4, 8, 16, 32];
 
 /// Frames between two updates, and the mean errors over all frames of the display.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Rate {
     /// An update every so many frames.
     pub every: u32,
@@ -32,13 +33,15 @@ pub struct Rate {
     pub flip_hold: f64,
     /// PSNR of sample-and-hold, decibels; none where there is no error.
     pub psnr_hold_db: Option<f64>,
-    /// The rate that sample-and-hold would need to be as good in FLIP: the largest N whose sample-and-hold is not
-    /// worse.
+    /// The largest N of this list whose sample-and-hold is not worse in FLIP.
     pub hold_needs_every: u32,
+    /// The N whose sample-and-hold is as good in FLIP, by interpolation between two of this list; none where
+    /// sample-and-hold is as good at the slowest of them.
+    pub hold_equals_every: Option<f64>,
 }
 
 /// galpix and sample-and-hold at an age.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Age {
     /// Frames since the update.
     pub frame: u32,
@@ -140,6 +143,7 @@ pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate
             flip_hold: held_here.flip(),
             psnr_hold_db: held_here.psnr_db(),
             hold_needs_every: needed(moved.flip(), &held),
+            hold_equals_every: equal(moved.flip(), &held),
         }
     };
     Ok(held.iter().map(rate).collect())
@@ -148,6 +152,15 @@ pub fn rates(scene: &dyn Scene, frames: u32, engine: &Engine) -> Result<Vec<Rate
 /// Returns the largest N at which sample-and-hold has at most this FLIP; at N = 1 it has none.
 fn needed(flip: f64, held: &[(u32, Sum)]) -> u32 {
     held.iter().filter(|(_, sum)| sum.flip() <= flip).map(|&(every, _)| every).max().unwrap_or(1)
+}
+
+/// Returns the N at which sample-and-hold has this FLIP, on the line from the last rate that is not worse to the next.
+fn equal(flip: f64, held: &[(u32, Sum)]) -> Option<f64> {
+    let not_worse = needed(flip, held);
+    let flip_at = |(every, sum): &(u32, Sum)| (f64::from(*every), sum.flip());
+    let before = held.iter().find(|(every, _)| *every == not_worse).map(flip_at)?;
+    let after = held.iter().find(|(every, _)| *every > not_worse).map(flip_at)?;
+    Some(before.0 + (after.0 - before.0) * (flip - before.1) / (after.1 - before.1))
 }
 
 /// galpix and sample-and-hold at the ages whose true picture is known.
@@ -175,5 +188,8 @@ mod tests {
         let at = |every, flip| (every, Sum { flip, squares: 0.0, frames: 1 });
         let held = [at(1, 0.0), at(2, 0.02), at(4, 0.05), at(8, 0.09)];
         assert_eq!([0.0, 0.01, 0.02, 0.06, 0.5].map(|flip| needed(flip, &held)), [1, 1, 2, 4, 8]);
+        let equal =
+            [0.0, 0.01, 0.02, 0.07, 0.09].map(|flip| equal(flip, &held).map(|every| (every * 1e6).round() / 1e6));
+        assert_eq!(equal, [Some(1.0), Some(1.5), Some(2.0), Some(6.0), None]);
     }
 }

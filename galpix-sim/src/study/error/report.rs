@@ -1,15 +1,16 @@
 //! What is reported, as it is written to JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::causes::FrameCauses;
 use super::frames::{FrameError, Summary};
 use super::rates::{Age, Rate};
 use crate::engine;
-use crate::study::timing::{Effort, Time};
+use crate::study::timing::{Effort, Noise, Time};
 
 /// What a point is run by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scheme {
     /// galpix.
@@ -32,7 +33,7 @@ impl Scheme {
 }
 
 /// One configuration: a point of the plots.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Point {
     /// Its number, from 1.
     pub id: usize,
@@ -71,6 +72,13 @@ pub struct Point {
 }
 
 impl Point {
+    /// Returns what its position error can be at most: the bound, or more where that was measured, for galpixels that a
+    /// range stopped are outside of it.
+    #[must_use]
+    pub fn at_most_px(&self) -> Option<f64> {
+        self.summary.bound_px.map(|bound| bound.max(self.summary.worst_px.unwrap_or(0.0)))
+    }
+
     /// Returns what it is, in a few words.
     #[must_use]
     pub fn name(&self) -> String {
@@ -85,18 +93,22 @@ impl Point {
 }
 
 /// The points that nothing beats, by number, from quick to slow (from small to large).
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct Fronts {
-    /// Compile-time form against the worst position error.
+    /// Compile-time form against what the position error can be at most.
     pub position: Vec<usize>,
     /// Compile-time form against FLIP.
     pub picture: Vec<usize>,
-    /// Bytes per galpixel against the worst position error.
+    /// Bytes per galpixel against what the position error can be at most.
     pub bytes: Vec<usize>,
+    /// Neighbours on `position` whose times are not told apart.
+    pub position_not_told_apart: Vec<[usize; 2]>,
+    /// The same of `picture`.
+    pub picture_not_told_apart: Vec<[usize; 2]>,
 }
 
 /// The design numbers of the derived budget.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct DemandReport {
     /// `D` in pixels.
     pub extent: u32,
@@ -107,7 +119,7 @@ pub struct DemandReport {
 }
 
 /// Everything about one source.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SourceReport {
     /// Scene or capture.
     pub source: String,
@@ -129,6 +141,8 @@ pub struct SourceReport {
     pub pictures: Vec<u32>,
     /// How often frames were timed.
     pub effort: Effort,
+    /// How noisy the machine was while times were taken.
+    pub noise: Option<Noise>,
     /// galpix and floats.
     pub points: Vec<Point>,
     /// What nothing beats.

@@ -15,9 +15,9 @@ pub fn text(report: &SourceReport) -> String {
     let bytes = report.fronts.bytes.iter().flat_map(|&id| of(&[id])).collect();
     let of_scheme = |scheme| by_time(report.points.iter().filter(|point| point.scheme == scheme).collect());
     let parts: [(&str, Vec<Row<'_>>); 5] = [
-        ("front of time and worst position error:", by_time(of(&report.fronts.position))),
+        ("front of time and certified position error:", by_time(of(&report.fronts.position))),
         ("front of time and FLIP:", by_time(of(&report.fronts.picture))),
-        ("front of bytes and worst position error:", bytes),
+        ("front of bytes and certified position error:", bytes),
         ("as stationary sources:", of_scheme(Scheme::Source)),
         ("the same scheme in 32-bit floats:", of_scheme(Scheme::F32)),
     ]
@@ -26,10 +26,12 @@ pub fn text(report: &SourceReport) -> String {
     let all: Vec<Row<'_>> = report.points.iter().map(row).collect();
     let table = Table::new(&columns, &all);
     let mut lines = vec![format!(
-        "{}: {}x{}, {} frames, D = {}, tau_recog = {}, tau_prop = {}; {} points",
+        "{}: {}x{}, positions of {} and pictures of {} of {} frames, D = {}, tau_recog = {}, tau_prop = {}; {} points",
         report.source,
         report.width,
         report.height,
+        report.looked_at.len(),
+        report.pictures.len(),
         report.frames,
         demand.extent,
         demand.recog,
@@ -48,6 +50,7 @@ pub fn text(report: &SourceReport) -> String {
         let flip = number(report.hold.flip, 4);
         lines.push(format!("sample-and-hold: PSNR {psnr} dB, inside {inside} dB, change {change}, FLIP {flip}"));
     }
+    lines.extend(doubts(report));
     lines.extend(rates(report));
     lines.join("\n")
 }
@@ -58,14 +61,28 @@ fn by_time(mut points: Vec<&Point>) -> Vec<&Point> {
     points
 }
 
+/// Returns what is not certain about the times, a sentence each.
+pub fn doubts(report: &SourceReport) -> Vec<String> {
+    let pairs = |pairs: &[[usize; 2]]| {
+        let pairs: Vec<String> = pairs.iter().map(|[first, second]| format!("{first} and {second}")).collect();
+        pairs.join(", ")
+    };
+    let fronts = [
+        ("certified position error", &report.fronts.position_not_told_apart),
+        ("FLIP", &report.fronts.picture_not_told_apart),
+    ];
+    let overlapping = fronts.into_iter().filter(|(_, overlapping)| !overlapping.is_empty()).map(|(of, overlapping)| {
+        format!("Not told apart by their times on the front of time and {of}: {}.", pairs(overlapping))
+    });
+    report.noise.and_then(|noise| noise.warning()).into_iter().chain(overlapping).collect()
+}
+
 /// Returns one sentence for each rate above every frame.
 fn rates(report: &SourceReport) -> Vec<String> {
     let rates = report.rates.iter().filter(|rate| rate.every > 1).map(|rate| {
-        let needed = match rate.hold_needs_every {
-            1 => "sample-and-hold needs every frame to be as good".to_owned(),
-            every if every == rate.every => "sample-and-hold is as good at the same rate".to_owned(),
-            every if every > rate.every => format!("sample-and-hold is as good at 1 in {every}"),
-            every => format!("sample-and-hold needs 1 in {every} to be as good"),
+        let needed = match rate.hold_equals_every {
+            Some(every) => format!("sample-and-hold is as good with 1 in {every:.1}, by interpolation"),
+            None => format!("sample-and-hold is not worse with 1 in {}", rate.hold_needs_every),
         };
         format!(
             "1 update in {:>2} frames: FLIP {:.4}, sample-and-hold {:.4}; {needed}",

@@ -4,7 +4,7 @@
 //! nothing reached), `warped.png` (those cells black) and `NAME.png` for each fill, of stationary sources
 //! `source-NAME.png`. `index.json` lists them; it is written last, so that where it is, the pictures are.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
 
@@ -69,6 +69,36 @@ impl Export {
     #[must_use]
     pub fn new(root: &Path) -> Self {
         Self { root: root.to_owned() }
+    }
+
+    /// Removes the pictures that an earlier run listed, and its list; returns how many there were.
+    pub fn clear(&self) -> usize {
+        let list = self.root.join("index.json");
+        let index: Option<serde_json::Value> =
+            std::fs::read_to_string(&list).ok().and_then(|text| serde_json::from_str(&text).ok());
+        let Some(sources) = index.as_ref().and_then(|index| index["sources"].as_array()) else { return 0 };
+        let frames = sources.iter().filter_map(|source| source["frames"].as_array()).flatten();
+        let files = frames.flat_map(|frame| {
+            let own = ["truth", "mask", "mask_all", "warped"].into_iter().filter_map(|key| frame[key].as_str());
+            own.chain(frame["fills"].as_array().into_iter().flatten().filter_map(|fill| fill["file"].as_str()))
+        });
+        // A list may come from elsewhere: what is removed lies inside of the folder and is a picture.
+        let inside = |file: &&str| {
+            let path = Path::new(file);
+            path.extension().is_some_and(|extension| extension == "png")
+                && path.components().all(|part| matches!(part, Component::Normal(_)))
+        };
+        let removed = files.filter(inside).filter(|file| {
+            let path = self.root.join(file);
+            let gone = std::fs::remove_file(&path).is_ok();
+            // Only folders that are empty go.
+            path.ancestors().skip(1).take(2).for_each(|folder| drop(std::fs::remove_dir(folder)));
+            gone
+        });
+        let removed = removed.count();
+        // Where it stays, the next one replaces it.
+        let _ = std::fs::remove_file(&list);
+        removed
     }
 
     /// Writes what there is of a frame besides the fills.

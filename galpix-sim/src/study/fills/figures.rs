@@ -1,5 +1,6 @@
 //! How well the disoccluded cells of a frame are filled.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::metric;
@@ -14,7 +15,7 @@ use crate::study::holes::Holes;
 const MARGIN: usize = 24;
 
 /// Figures of one picture, or means of several, weighted by their cells.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Figures {
     /// Over the disoccluded cells, in decibels; of several pictures that of all cells together.
     pub psnr_db: Option<f64>,
@@ -33,7 +34,7 @@ pub struct Figures {
 }
 
 /// The truth's own.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct TruthFigures {
     /// See [`Figures::variance`].
     pub variance: Option<f64>,
@@ -64,6 +65,16 @@ pub fn of(holes: &Holes, shown: &Picture, before: Option<(&Holes, &Picture)>, tr
         variance: around(holes, shown, metric::variance),
         flicker: change.zip(truth.change).map(|(change, truth)| change - truth),
         ssimulacra2: metric::ssimulacra2(shown, &holes.truth),
+    }
+}
+
+/// Returns the errors of a picture over all cells that the warp leaves open.
+pub fn open(open: &Holes, shown: &Picture) -> Figures {
+    Figures {
+        psnr_db: metric::psnr_db(shown, &open.truth, Some(&open.disoccluded)),
+        ssim: around(open, shown, metric::ssim),
+        flip: around(open, shown, metric::flip),
+        ..Figures::default()
     }
 }
 

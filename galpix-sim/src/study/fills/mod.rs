@@ -17,6 +17,7 @@ pub mod report;
 mod times;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cells::count;
@@ -24,9 +25,10 @@ use super::crops;
 use super::holes::{self, Holes};
 use super::job::{ExperimentError, Job, Request};
 use super::run::{self, TruthReport};
+use super::timing::Race;
 use super::{File, Found, Nothing, Silent, Stage, Study, StudyError, Work, silent};
 use crate::metric::measures::Measures;
-use crate::output::{column, measures};
+use crate::output::column;
 use crate::picture::Picture;
 use crate::source::Source;
 use case::Case;
@@ -48,7 +50,7 @@ pub struct Plan {
 }
 
 /// What is reported besides the sources.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Extra {
     /// The radius of the disc inside of which nothing is judged.
     pub fovea: Option<u32>,
@@ -61,11 +63,19 @@ pub struct Extra {
 /// Everything that was measured.
 pub type Document = super::Document<Extra, SourceReport>;
 
+/// Returns what the columns are.
+#[must_use]
+pub fn legend() -> String {
+    column::legend(&columns::columns())
+}
+
 impl Study for Plan {
     type Source = Source;
     type Job<'s> = Job<'s>;
     type Report = SourceReport;
     type Extra = Extra;
+
+    const NAME: &'static str = "fills";
 
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
@@ -81,6 +91,12 @@ impl Study for Plan {
 
     fn study(&self, job: &Job<'_>, stage: &Stage<'_>) -> Result<Found<SourceReport>, StudyError> {
         let export = stage.out.map(Export::new);
+        let removed = export.as_ref().map_or(0, Export::clear);
+        if removed > 0 {
+            (stage.notify)(Work::Note(&format!(
+                "{removed} pictures of an earlier run removed: its index.json lists them"
+            )));
+        }
         let report =
             compare(job, self, export.as_ref(), || (stage.notify)(Work::Done)).map_err(StudyError::unusable)?;
         Ok(report.map_or(Found::Nothing(Nothing::Disoccluded), Found::Report))
@@ -91,7 +107,7 @@ impl Study for Plan {
     }
 
     fn legends(&self) -> Vec<String> {
-        vec![columns::LEGEND.to_owned(), measures::legend()]
+        vec![legend()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -148,7 +164,9 @@ fn compare(
     }
     let weights: Vec<Weight> = each(&holes).map(|(before, now)| Weight::of(before, now)).collect();
     let truths: Vec<TruthFigures> = each(&holes).map(|(before, now)| figures::truth(before, now)).collect();
-    let judged = Judged { job, holes: &holes, truths: &truths, export };
+    let open: Vec<Holes> = holes.iter().map(|holes| holes.with_border(plan.fovea)).collect();
+    let open_weights: Vec<Weight> = each(&open).map(|(before, now)| Weight::of(before, now)).collect();
+    let judged = Judged { job, holes: &holes, open: &open, truths: &truths, export };
     let shown: Vec<Shown> = plan
         .cases
         .par_iter()
@@ -158,15 +176,13 @@ fn compare(
             shown
         })
         .collect::<Result<_, _>>()?;
-    let times = times::of(job, &plan.cases);
+    let Race { times, noise } = times::of(job, &plan.cases);
     let mut crops = crops::of_truth(&holes, &largest);
     let fills = shown.into_iter().zip(&plan.cases).zip(times).map(|((shown, case), time)| {
         crops.extend(shown.largest.map(|picture| crops::crop(case.label(), &picture, &largest)));
-        let frames = holes.iter().zip(&shown.figures).zip(&shown.truths);
-        let frame = |((holes, &figures), &truth): ((&Holes, &Figures), &TruthReport)| FrameFigures {
-            frame: holes.frame,
-            figures,
-            truth,
+        let frames = holes.iter().zip(&shown.figures).zip(&shown.open).zip(&shown.truths);
+        let frame = |(((holes, &figures), &open), &truth): (((&Holes, &Figures), &Figures), &TruthReport)| {
+            FrameFigures { frame: holes.frame, figures, open, truth }
         };
         FillReport {
             name: case.name,
@@ -176,6 +192,7 @@ fn compare(
             depth_aware: case.fill.inpaint().map(|inpaint| inpaint.depth_aware),
             time,
             summary: figures::summary(&shown.figures, &weights),
+            open: figures::summary(&shown.open, &open_weights),
             measures: Measures::mean(shown.truths.iter().map(TruthReport::measures)),
             frames: frames.map(frame).collect(),
         }
@@ -187,6 +204,7 @@ fn compare(
         width: job.update.display_width(),
         height: job.update.display_height(),
         frames: job.frames,
+        noise,
         cells: holes.iter().map(cells).collect(),
         truth: figures::truth_summary(&truths, &weights),
         fills,
@@ -213,6 +231,8 @@ fn cells(holes: &Holes) -> FrameCells {
 struct Shown {
     /// In each frame with a truth.
     figures: Vec<Figures>,
+    /// The same over all cells that the warp leaves open.
+    open: Vec<Figures>,
     /// The same frames against the truth.
     truths: Vec<TruthReport>,
     /// The picture with the largest disocclusion.
@@ -223,6 +243,8 @@ struct Shown {
 struct Judged<'s> {
     job: &'s Job<'s>,
     holes: &'s [Holes],
+    /// The same frames where all cells are judged that the warp leaves open.
+    open: &'s [Holes],
     truths: &'s [TruthFigures],
     export: Option<&'s Export>,
 }
@@ -230,15 +252,17 @@ struct Judged<'s> {
 impl Judged<'_> {
     /// Runs a fill; keeps its picture of frame `wanted`.
     fn show(&self, case: &Case, wanted: u32) -> Result<Shown, FillsError> {
-        let mut shown = Shown { figures: Vec::with_capacity(self.holes.len()), truths: Vec::new(), largest: None };
+        let mut shown = Shown { figures: Vec::new(), open: Vec::new(), truths: Vec::new(), largest: None };
         let mut written = Ok(());
         let mut last: Option<(&Holes, Picture)> = None;
-        let mut frames = self.holes.iter().zip(self.truths).peekable();
+        let mut frames = self.holes.iter().zip(self.open).zip(self.truths).peekable();
         let job = self.job.with_scheme(case.scheme).with_fill(case.fill).without_perception();
         let report = run::job(&job, |frame| {
-            let Some((holes, truth)) = frames.next_if(|(holes, _)| holes.frame == frame.frame) else { return };
+            let next = frames.next_if(|((holes, _), _)| holes.frame == frame.frame);
+            let Some(((holes, open), truth)) = next else { return };
             let before = last.as_ref().map(|(before, picture)| (*before, picture));
             shown.figures.push(figures::of(holes, frame.picture, before, truth));
+            shown.open.push(figures::open(open, frame.picture));
             if let (Some(export), Ok(())) = (self.export, &written) {
                 written = export.filled(self.job.source, holes, &case.label(), frame.picture);
             }

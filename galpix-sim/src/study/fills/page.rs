@@ -34,13 +34,14 @@ pub fn html(document: &Document) -> String {
 }
 
 const READING: &str = "\
-<li><b>Disoccluded</b> cells are those that no galpixel of the update reached, by the warp of the map alone, and that are not connected \
-with the border: the same for all schemes and fills. <b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over them, all other cells set to the truth, and means over the frames, \
-weighted by their cells.</li>\
+<li><b>Open</b> cells are those that no galpixel of the update reached, by the warp of the map alone: the same for all schemes and fills. \
+<b>Inner</b> ones are not connected with the border by open cells; what is may enter the picture, and no fill can know it. \
+<b>PSNR</b>, <b>SSIM</b> and <b>FLIP</b> (0 for equals) are over the inner ones, and once more over all open ones, the other cells set to the truth: \
+means over the frames, weighted by their cells. Where few of the open cells are inner ones, the two may rank fills differently.</li>\
 <li><b>Variance</b> is that of luma in the 7\u{00D7}7 cells around each. Less than the truth\u{2019}s is blurred. <b>Flicker</b> is the mean \
-change of luma from the frame before, where both frames are disoccluded, less that of the truth.</li>\
-<li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median, relative to a \
-memory copy of the map in the same run (<b>\u{00D7} copy</b>). Of stationary sources the picture is part of the frame. <b>Whole</b> (PSNR) and \
+change of luma from the frame before, where both are inner cells, less that of the truth.</li>\
+<li><b>Time</b> is that of the whole frame with the fill, on one core, in the form whose budget is chosen at run time: the median of \
+rounds in which all take turns, with half their range (<b>+- %</b>), also by a memory copy of the map in the same run (<b>x copy</b>). Of stationary sources the picture is part of the frame. <b>Whole</b> (PSNR) and \
 <b>SSIMULACRA2</b> (100 for equals) are of the whole picture.</li>";
 
 fn foot(document: &Document) -> Markup {
@@ -61,12 +62,14 @@ fn section(index: usize, source: &SourceReport) -> Markup {
     let tags = [
         ("display", format!("{}\u{00D7}{}", source.width, source.height)),
         ("frames with a truth", source.cells.len().to_string()),
-        ("disoccluded cells a frame", count(source.disoccluded() / frames)),
+        ("open cells a frame", count(source.missing() / frames)),
+        ("of these inner ones", count(source.disoccluded() / frames)),
         ("variance of the truth", figure(source.truth.variance, 1)),
     ];
     let body = html! {
         (crops::html(&source.source, &source.largest, &source.crops))
-        div class="plots two" { (plot(source, &FLIP)) (plot(source, &VARIANCE)) }
+        div class="plots two" { (plot(source, &FLIP)) (plot(source, &OPEN)) (plot(source, &VARIANCE)) }
+        (page::list(&source.noise.and_then(|noise| noise.warning()).into_iter().collect::<Vec<_>>()))
         (column::html("rows points", &columns(), &summaries(source)))
     };
     page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)
@@ -84,15 +87,23 @@ struct Shown {
 
 const FLIP: Shown = Shown {
     title: "Error against time",
-    axis: "FLIP of the disoccluded cells",
+    axis: "FLIP of the inner cells",
     remark: "Lower is better; 0 is the truth. To the right: what a frame costs.",
     figure: |fill| fill.summary.flip,
     truth: |_| None,
 };
 
+const OPEN: Shown = Shown {
+    title: "Error of all open cells against time",
+    axis: "FLIP of all open cells",
+    remark: "The same with the cells that are connected with the border.",
+    figure: |fill| fill.open.flip,
+    truth: |_| None,
+};
+
 const VARIANCE: Shown = Shown {
     title: "Texture against time",
-    axis: "local variance of the disoccluded cells",
+    axis: "local variance of the inner cells",
     remark: "The nearer to the truth\u{2019}s, which is the broken line, the better: below it is blurred.",
     figure: |fill| fill.summary.variance,
     truth: |source| source.truth.variance,

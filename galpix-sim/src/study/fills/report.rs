@@ -1,15 +1,16 @@
 //! What is reported, as it is written to JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::figures::{Figures, TruthFigures};
 use crate::metric::measures::Measures;
 use crate::study::crops::{Crop, Largest};
 use crate::study::run::TruthReport;
-use crate::study::timing::Time;
+use crate::study::timing::{Noise, Time};
 
 /// The cells of a frame as the warp of the map leaves them, the same for all schemes and fills: those of `none`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FrameCells {
     /// Frames since the update.
     pub frame: u32,
@@ -22,19 +23,21 @@ pub struct FrameCells {
 }
 
 /// A fill in a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FrameFigures {
     /// Frames since the update.
     pub frame: u32,
     /// Its figures.
     #[serde(flatten)]
     pub figures: Figures,
+    /// The same over all cells that the warp leaves open, those connected with the border too.
+    pub open: Figures,
     /// The whole picture, as `galpix run` compares it; without SSIM and FLIP.
     pub truth: TruthReport,
 }
 
 /// A fill over all frames.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FillReport {
     /// Its name.
     pub name: &'static str,
@@ -51,6 +54,8 @@ pub struct FillReport {
     pub time: Option<Time>,
     /// Means over the frames, by disoccluded cells.
     pub summary: Figures,
+    /// The same over all cells that the warp leaves open, by their number.
+    pub open: Figures,
     /// Means over the frames, each of them of the whole picture.
     pub measures: Measures,
     /// The frames with a truth.
@@ -58,7 +63,7 @@ pub struct FillReport {
 }
 
 /// A source.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SourceReport {
     /// Scene or capture.
     pub source: String,
@@ -70,6 +75,8 @@ pub struct SourceReport {
     pub height: usize,
     /// Frames extrapolated.
     pub frames: u32,
+    /// How noisy the machine was while times were taken.
+    pub noise: Option<Noise>,
     /// The frames with a truth, ascending.
     pub cells: Vec<FrameCells>,
     /// The truth's own figures at the same cells.
@@ -84,6 +91,12 @@ pub struct SourceReport {
 }
 
 impl SourceReport {
+    /// Returns the cells of all frames that the warp leaves open.
+    #[must_use]
+    pub fn missing(&self) -> u64 {
+        self.cells.iter().map(|frame| frame.missing).sum()
+    }
+
     /// Returns the disoccluded cells of all frames.
     #[must_use]
     pub fn disoccluded(&self) -> u64 {

@@ -3,17 +3,17 @@
 use super::case::Case;
 use crate::engine::Scheme;
 use crate::study::job::Job;
-use crate::study::timing::{Effort, Engine, Maker, Time, Whole, race};
+use crate::study::timing::{Effort, Engine, Maker, Race, Whole, race};
 
 /// Frames that are timed in a round.
 const FRAMES: u32 = 8;
 /// Rounds that count.
-const ROUNDS: u32 = 3;
-/// Cells from which on one round counts.
+const ROUNDS: u32 = 5;
+/// Cells from which on fewer rounds count.
 const LARGE: usize = 400_000;
 
-/// Returns the times of a frame of a job, one a fill.
-pub fn of(job: &Job<'_>, cases: &[Case]) -> Vec<Option<Time>> {
+/// Returns the times of a frame of a job, one for each fill.
+pub fn of(job: &Job<'_>, cases: &[Case]) -> Race {
     let make = |case: &Case| -> Maker<'_> {
         let (own, update, inpaint) =
             (job.with_scheme(case.scheme).with_fill(case.fill), &job.update, case.fill.inpaint());
@@ -25,6 +25,6 @@ pub fn of(job: &Job<'_>, cases: &[Case]) -> Vec<Option<Time>> {
         }
     };
     let makers: Vec<Maker<'_>> = cases.iter().map(make).collect();
-    let rounds = if job.update.samples.len() > LARGE { 1 } else { ROUNDS };
+    let rounds = if job.update.samples.len() > LARGE { 3 } else { ROUNDS };
     race(&job.update, Effort { rounds, frames: job.frames.min(FRAMES) }, &makers, || {})
 }

@@ -12,11 +12,13 @@ mod run;
 mod stationary;
 mod world;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use galpix_core::objects::Limits;
 use galpix_core::{Bits, Demand};
 
+pub use columns::LEGEND;
 pub use pinned::PinnedReport;
 use report::{GraftReport, StrategyReport};
 use run::{Deliver, Strategy};
@@ -88,7 +90,7 @@ pub enum GraftsError {
 }
 
 /// A scene as it was compared.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 pub struct Seen {
     /// Its figures.
     #[serde(flatten)]
@@ -103,6 +105,7 @@ impl Study for Plan {
     type Report = Seen;
     type Extra = NoExtra;
 
+    const NAME: &'static str = "graft";
     const PATH: PathPrinted = PathPrinted::Nowhere;
 
     fn name<'a>(&self, scene: &'a &'static dyn Scene) -> &'a str {
@@ -139,7 +142,7 @@ impl Study for Plan {
 
     /// Returns the figures of the one scene, without anything around them.
     fn json(&self, document: &super::Document<NoExtra, Seen>) -> serde_json::Result<String> {
-        serde_json::to_string_pretty(&document.sources.first().map(|seen| &seen.report))
+        serde_json::to_string_pretty(&document.sources.first().map(|seen| document.headed(&seen.report)))
     }
 
     fn files(&self, document: &super::Document<NoExtra, Seen>) -> Result<Vec<File>, StudyError> {

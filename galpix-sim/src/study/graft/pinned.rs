@@ -1,6 +1,7 @@
 //! Instruments over a picture: pinned, as galpixels of the one map, or painted into the picture.
 
 use galpix_core::{Bits, Dynamic, Format, Layout};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::engine::{Engine, EngineError};
@@ -12,7 +13,7 @@ use crate::study::job::Request;
 use crate::update::{Known, Sample, Update};
 
 /// The results of pinning, for each strategy.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PinnedReport {
     /// Pixels of the display.
     pub pixels: usize,
@@ -26,7 +27,7 @@ pub struct PinnedReport {
 }
 
 /// One strategy.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct PinnedStrategy {
     /// `pinned`, `nearest` (galpixels at rest before everything), `painted` (colours on what moves).
     #[serde(rename = "way")]

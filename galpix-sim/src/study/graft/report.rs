@@ -1,11 +1,12 @@
 //! What a comparison found, as it is written to JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::pinned::PinnedReport;
 
 /// One scene.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct GraftReport {
     /// Its name.
     pub scene: &'static str,
@@ -23,7 +24,7 @@ pub struct GraftReport {
 }
 
 /// One strategy of delivering updates.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Serialize, JsonSchema)]
 pub struct StrategyReport {
     /// Its name.
     #[serde(rename = "way")]
@@ -60,7 +61,7 @@ pub struct StrategyReport {
 }
 
 /// How many renderings were refused, by reason.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct RefusedReport {
     /// Altogether.
     pub total: u32,
@@ -75,7 +76,7 @@ pub struct RefusedReport {
 }
 
 /// The core's tally of grafts, summed over a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct GraftedReport {
     /// Renderings that entered.
     pub renderings: u32,

@@ -54,33 +54,95 @@ pub fn summaries(source: &SourceReport) -> Vec<Row<'_>> {
 }
 
 /// Returns the columns. Missing cells are summed up in the CSV, and means elsewhere.
-pub fn columns<'r>() -> [Column<Row<'r>>; 18] {
+pub fn columns<'r>() -> Vec<Column<Row<'r>>> {
+    let mut columns = Vec::from(samples());
+    columns.extend(cells());
+    columns.extend(pictures());
+    columns.extend(times());
+    columns
+}
+
+/// Returns the columns of what is handed over.
+fn samples<'r>() -> [Column<Row<'r>>; 6] {
     [
         Column::new(|row: &Row| row.source.source.as_str().into()).csv("source"),
-        Column::new(|row: &Row| row.strategy.name.as_str().into()).csv("way").both("way", 0).words(),
+        Column::new(|row: &Row| row.strategy.name.as_str().into())
+            .csv("way")
+            .both("way", 0)
+            .words()
+            .means("which hidden samples are handed over, and how"),
         Column::new(|row: &Row| row.hidden(|hidden| hidden.layers as u64)).csv("layers").csv_else("0"),
         Column::new(|row: &Row| row.hidden(|hidden| hidden.offered.into()))
             .csv("offered")
             .csv_else("0")
-            .both("offered", 0),
-        Column::new(|row: &Row| row.hidden(|hidden| hidden.kept.into())).csv("kept").csv_else("0").both("kept", 0),
-        Column::new(|row: &Row| row.hidden(|hidden| hidden.used.into())).csv("used").csv_else("0").both("used", 0),
+            .both("offered", 0)
+            .means("samples behind the first layer that the source has"),
+        Column::new(|row: &Row| row.hidden(|hidden| hidden.kept.into()))
+            .csv("kept")
+            .csv_else("0")
+            .both("kept", 0)
+            .means("those that are handed over"),
+        Column::new(|row: &Row| row.hidden(|hidden| hidden.used.into()))
+            .csv("used")
+            .csv_else("0")
+            .both("used", 0)
+            .means("those that the display ever showed"),
+    ]
+}
+
+/// Returns the columns of what no galpixel reached.
+fn cells<'r>() -> [Column<Row<'r>>; 5] {
+    [
         Column::new(|row: &Row| row.frame.map(|frame| frame.frame).into()).csv("frame"),
         Column::new(|row: &Row| row.cells(|frame| frame.missing, row.strategy.missing)).csv("missing"),
         Column::new(|row: &Row| row.cells(|frame| frame.disoccluded, row.strategy.disoccluded)).csv("disoccluded"),
-        Column::new(|row: &Row| row.mean(row.strategy.missing)).both("missing", 1),
-        Column::new(|row: &Row| row.mean(row.strategy.disoccluded)).both("disoccluded", 1),
+        Column::new(|row: &Row| row.mean(row.strategy.missing))
+            .both("missing", 1)
+            .means("cells that no galpixel of the update reached, a frame"),
+        Column::new(|row: &Row| row.mean(row.strategy.disoccluded))
+            .both("disoccluded", 1)
+            .means("those that the first layer alone leaves open and that are not connected with the border, a frame"),
+    ]
+}
+
+/// Returns the columns of the errors of the pictures.
+fn pictures<'r>() -> [Column<Row<'r>>; 3] {
+    [
         Column::new(|row: &Row| row.figure(|frame| frame.psnr_db, row.strategy.psnr_db))
             .csv("psnr_db")
-            .both("PSNR dB", 2),
-        Column::new(|row: &Row| row.figure(|frame| frame.flip, row.strategy.flip)).csv("flip").both("FLIP", 4),
+            .both("PSNR dB", 2)
+            .means("of the whole picture after the fill, the mean of the frames"),
+        Column::new(|row: &Row| row.figure(|frame| frame.flip, row.strategy.flip))
+            .csv("flip")
+            .both("FLIP", 4)
+            .means("likewise, 0 for equals"),
         Column::new(|row: &Row| row.figure(|frame| frame.disoccluded_db, row.strategy.disoccluded_db))
             .csv("disoccluded_db")
-            .both("there dB", 2),
-        Column::new(|row: &Row| row.time(|time| time.frame_us)).csv("frame_us").both("us/frame", 1),
-        Column::new(|row: &Row| row.of_all(row.strategy.x_one)).csv("x_one").both("x one", 2),
-        Column::new(|row: &Row| row.time(|time| time.x_copy)).both("x copy", 2),
-        Column::new(|row: &Row| row.of_all(row.strategy.update_us)).csv("update_us").both("us/update", 1),
+            .both("there dB", 2)
+            .means("PSNR of the disoccluded cells"),
+    ]
+}
+
+fn times<'r>() -> [Column<Row<'r>>; 7] {
+    [
+        Column::new(|row: &Row| row.time(|time| time.frame_us))
+            .csv("frame_us")
+            .both("us/frame", 1)
+            .means("time of a frame, the median of the rounds"),
+        Column::new(|row: &Row| row.time(|time| time.uncertain_percent()))
+            .both("+- %", 0)
+            .means("half the range of the rounds, of the median: times that differ by less are not told apart"),
+        Column::new(|row: &Row| row.time(|time| time.frame_us_range[0])).csv("frame_us_low"),
+        Column::new(|row: &Row| row.time(|time| time.frame_us_range[1])).csv("frame_us_high"),
+        Column::new(|row: &Row| row.of_all(row.strategy.x_one))
+            .csv("x_one")
+            .both("x one", 2)
+            .means("the time of a frame by that of the first layer alone"),
+        Column::new(|row: &Row| row.time(|time| time.x_copy)).both("x copy", 2).means("by a copy of its map"),
+        Column::new(|row: &Row| row.of_all(row.strategy.update_us))
+            .csv("update_us")
+            .both("us/update", 1)
+            .means("time of the disocclusion map of an update"),
     ]
 }
 
@@ -95,11 +157,7 @@ pub fn text(report: &SourceReport) -> String {
         report.frames
     );
     let (columns, rows) = (columns(), summaries(report));
-    std::iter::once(head).chain(Table::new(&columns, &rows).lines(&rows)).collect::<Vec<_>>().join("\n")
+    let table = Table::new(&columns, &rows);
+    let lines = std::iter::once(head).chain(table.lines(&rows));
+    lines.chain(report.noise.and_then(|noise| noise.warning())).collect::<Vec<_>>().join("\n")
 }
-
-/// What the columns are.
-pub const LEGEND: &str = "offered, kept, used: samples behind the first layer that the source has, that are handed over, that the display ever \
-showed; missing: cells that no galpixel reached, a frame; disoccluded: those of them that the first layer alone leaves open and that are not connected \
-with the border, a frame; PSNR, FLIP (0 is best): of the whole picture after the fill, means over the frames; there: over the disoccluded cells; \
-x one: the time of a frame by that of the first layer alone, x copy: by a copy of its map; us/update: the disocclusion map.";

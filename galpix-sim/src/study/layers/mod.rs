@@ -15,6 +15,7 @@ pub mod report;
 mod times;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cells::{Cells, count};
@@ -61,7 +62,7 @@ impl Default for Plan {
 }
 
 /// What is reported besides the sources.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Extra {
     /// How far a separated second layer lies behind the first at least, as a part of the depth range.
     pub separation: f64,
@@ -85,11 +86,19 @@ impl Plan {
     }
 }
 
+/// Returns what the columns are.
+#[must_use]
+pub fn legend() -> String {
+    column::legend(&columns::columns())
+}
+
 impl super::Study for Plan {
     type Source = Source;
     type Job<'s> = Job<'s>;
     type Report = SourceReport;
     type Extra = Extra;
+
+    const NAME: &'static str = "layers";
 
     fn name<'a>(&self, source: &'a Source) -> &'a str {
         source.name()
@@ -112,7 +121,7 @@ impl super::Study for Plan {
     }
 
     fn legends(&self) -> Vec<String> {
-        vec![columns::LEGEND.to_owned()]
+        vec![legend()]
     }
 
     fn text(&self, report: &SourceReport) -> String {
@@ -165,7 +174,7 @@ fn compare(job: &Job<'_>, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, 
             shown
         })
         .collect::<Result<_, _>>()?;
-    let times = times::of(job, &strategies)?;
+    let (times, noise) = times::of(job, &strategies)?;
     let of_one = times.first().and_then(|(time, _)| *time);
     let mut crops = crops::of_truth(&holes, &largest);
     let reports = shown.into_iter().zip(&strategies).zip(times).map(|((shown, &strategy), (time, update_us))| {
@@ -181,6 +190,7 @@ fn compare(job: &Job<'_>, plan: &Plan, done: impl Fn() + Sync) -> Result<Study, 
         height: job.update.display_height(),
         frames: job.frames,
         cells: holes.iter().map(cells).collect(),
+        noise,
         strategies,
         largest,
         crops,

@@ -66,6 +66,7 @@ fn section(index: usize, source: &SourceReport) -> Markup {
         (crops::html(&source.source, &source.largest, &source.crops))
         (map(source))
         div class="plots two" { (plot(source, &CARRIED)) (plot(source, &TIME)) }
+        (page::list(&source.noise.and_then(|noise| noise.warning()).into_iter().collect::<Vec<_>>()))
         (column::html("rows points", &columns(), &summaries(source)))
     };
     page::source(&Head { index, name: &source.source, about: &source.about, tags: &tags }, &body)

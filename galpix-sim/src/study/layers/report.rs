@@ -1,14 +1,15 @@
 //! What is reported, as it is written to JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::metric::stats;
 use crate::source::hidden::{HiddenReport, Strategy};
 use crate::study::crops::{Crop, Largest};
-use crate::study::timing::Time;
+use crate::study::timing::{Noise, Time};
 
 /// The cells of a frame that the first layer alone leaves open.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct FrameCells {
     /// Frames since the update.
     pub frame: u32,
@@ -19,7 +20,7 @@ pub struct FrameCells {
 }
 
 /// A strategy in a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StrategyFrame {
     /// Frames since the update.
     pub frame: u32,
@@ -36,7 +37,7 @@ pub struct StrategyFrame {
 }
 
 /// A strategy over all frames.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StrategyReport {
     /// Its name.
     pub name: String,
@@ -63,7 +64,7 @@ pub struct StrategyReport {
 }
 
 /// A source.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SourceReport {
     /// Scene or capture.
     pub source: String,
@@ -77,6 +78,8 @@ pub struct SourceReport {
     pub frames: u32,
     /// The frames with a truth, ascending.
     pub cells: Vec<FrameCells>,
+    /// How noisy the machine was while times were taken.
+    pub noise: Option<Noise>,
     /// The strategies; the first is that of the first layer alone.
     #[serde(rename = "ways")]
     pub strategies: Vec<StrategyReport>,

@@ -11,7 +11,9 @@ use super::Build;
 pub fn text(source: &str, build: &Build, record: &Record, settings: Settings) -> String {
     let name = type_name(source);
     let mut text = format!(
-        "/// {} bits in {} words per galpixel.\n\
+        "use galpix_core::record::Component;\n\
+         use galpix_core::{{Bits, FillMode, Layout, Profile, Rounding, Settings}};\n\n\
+         /// {} bits in {} words per galpixel.\n\
          pub enum {name} {{}}\n\
          impl Profile for {name} {{\n    const LAYOUT: Layout = {};\n    const BITS: Bits = Bits {{\n",
         record.bits(),

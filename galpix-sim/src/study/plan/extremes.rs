@@ -1,11 +1,12 @@
 //! How fast and how far the samples of an update go.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::update::{Known, Update};
 
 /// Of one axis of the plane, over all samples whose motion is known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Reach {
     /// The largest speed in any frame of the plan, in pixels per frame.
     pub speed: f64,
@@ -18,7 +19,7 @@ pub struct Reach {
 }
 
 /// What the motion of an update can come to within some frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Extremes {
     /// Along a row.
     pub x: Reach,

@@ -1,6 +1,7 @@
 //! A build, run over the update it is made for.
 
 use galpix_core::{Dynamic, Format, Record, Settings};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Build, PlanError};
@@ -11,11 +12,13 @@ use crate::picture::Picture;
 use crate::study::job::{Job, Request};
 use crate::study::run;
 
-/// Rounds of timing: in each, every build runs once.
-const ROUNDS: u32 = 3;
+/// Rounds of timing: in each, every build runs once. The first warms up.
+const ROUNDS: u32 = 6;
+/// Frames of a round.
+const FRAMES: u32 = 12;
 
 /// What was seen when a build was run.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct Measured {
     /// The worst position error of any galpixel in any frame, against the exact second-order path, in pixels.
     pub worst_px: Option<f64>,
@@ -25,6 +28,12 @@ pub struct Measured {
     pub saturated: u64,
     /// The median time of a frame, in microseconds, with the budget chosen at run time.
     pub frame_us: f64,
+    /// The smallest and the largest of the rounds, of which that is the median.
+    pub frame_us_range: [f64; 2],
+    /// Ratio to the full budget in the same round, the median.
+    pub x_full: f64,
+    /// The smallest and the largest of the rounds.
+    pub x_full_range: [f64; 2],
 }
 
 /// A source and how it is run.
@@ -104,24 +113,39 @@ impl Ran {
             within_certificate: self.worst_px.zip(certified_px).map(|(worst, certified)| worst <= certified + slack),
             saturated: self.saturated,
             frame_us: 0.0,
+            frame_us_range: [0.0; 2],
+            x_full: 1.0,
+            x_full_range: [1.0; 2],
         }
     }
 }
 
-/// Times several builds, in turn, so that they share what the machine does meanwhile.
+/// Times several builds, in turn, so that they share what the machine does meanwhile; the first is the full budget.
 pub fn time(subject: &Subject<'_>, builds: &mut [(Build, &mut Measured)]) -> Result<(), PlanError> {
-    let mut times: Vec<Vec<f64>> = vec![Vec::new(); builds.len()];
-    for _ in 0..ROUNDS {
-        for ((build, _), times) in builds.iter().zip(&mut times) {
-            subject.engine(build)?.run(&subject.0.update, subject.0.frames, |frame| {
+    let mut rounds: Vec<Vec<f64>> = vec![Vec::new(); builds.len()];
+    for round in 0..ROUNDS {
+        for ((build, _), rounds) in builds.iter().zip(&mut rounds) {
+            let mut times = Vec::new();
+            subject.engine(build)?.run(&subject.0.update, subject.0.frames.min(FRAMES), |frame| {
                 if frame.number > 0 {
                     times.push(frame.time.as_secs_f64());
                 }
             })?;
+            rounds.extend(median(times).filter(|_| round > 0));
         }
     }
-    for ((_, measured), times) in builds.iter_mut().zip(times) {
-        measured.frame_us = median(times).map_or(0.0, |seconds| seconds * 1e6);
+    let full = rounds.first().cloned().unwrap_or_default();
+    for ((_, measured), rounds) in builds.iter_mut().zip(rounds) {
+        let ratios: Vec<f64> =
+            rounds.iter().zip(&full).map(|(time, full)| time / full.max(f64::MIN_POSITIVE)).collect();
+        (measured.frame_us, measured.frame_us_range) = within(rounds.iter().map(|time| time * 1e6).collect());
+        (measured.x_full, measured.x_full_range) = within(ratios);
     }
     Ok(())
+}
+
+/// Returns the median of some values, and the smallest and the largest of them.
+fn within(values: Vec<f64>) -> (f64, [f64; 2]) {
+    let ends = [f64::min, f64::max].map(|end| values.iter().copied().reduce(end).unwrap_or(0.0));
+    (median(values).unwrap_or(0.0), ends)
 }

@@ -17,6 +17,7 @@ mod motion;
 
 use galpix_core::record::Component;
 use galpix_core::{Bits, BudgetError, Demand, FillMode, Layout, Record, Rounding};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::certificate::Unreachable;
@@ -46,7 +47,7 @@ pub enum PlanError {
 }
 
 /// What a display needs for one source and one error.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Plan {
     /// The requested position error, in pixels.
     pub max_error_px: f64,
@@ -85,7 +86,7 @@ pub(crate) struct Build {
 }
 
 /// A plan for the requested error, one for a tighter error, and the full budget.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Planning {
     /// Scene or capture.
     pub source: String,
@@ -106,7 +107,7 @@ pub struct Planning {
 }
 
 /// The full budget.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Full {
     /// `D` in pixels.
     pub extent: u32,
@@ -124,25 +125,37 @@ pub struct Full {
     pub measured: Measured,
 }
 
-/// Plans a source for an error of `max_error` pixels, and for one of `tighter` pixels.
+/// How often `done` is called by [`plan`].
+pub const PIECES: u64 = 4;
+
+/// Plans a source for an error in pixels, and for a tighter one; `done` is called after each piece of it.
 ///
 /// *Errors:* an error that no budget keeps, a full budget that cannot exist.
-pub fn plan(source: &Source, request: &Request, max_error: f64, tighter: f64) -> Result<Planning, PlanError> {
+pub fn plan(
+    source: &Source,
+    request: &Request,
+    [max_error, tighter]: [f64; 2],
+    done: impl Fn(),
+) -> Result<Planning, PlanError> {
     // A plan looks at frames from one to the next.
     let frames = Some(request.frames(source).max(2));
     let subject = Subject(Job::resolve(source, &Request { frames, ..*request })?);
     let Job { frames, demand, ref update, .. } = subject.0;
     let extremes = Extremes::of(update, frames);
     let mut full = full(&subject, demand)?;
+    done();
     let mut plan = one(&subject, &extremes, demand, max_error)?;
+    done();
     let mut tight = match one(&subject, &extremes, demand, tighter) {
         Ok(plan) => Some(plan),
         Err(PlanError::Unreachable(_)) => None,
         Err(error) => return Err(error),
     };
+    done();
     let mut timed = vec![(full_build(demand)?, &mut full.measured), (plan.build, &mut plan.measured)];
     timed.extend(tight.as_mut().map(|tight| (tight.build, &mut tight.measured)));
     measured::time(&subject, &mut timed)?;
+    done();
     Ok(Planning {
         source: source.name().to_owned(),
         width: update.display_width(),

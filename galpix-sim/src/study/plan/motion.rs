@@ -2,13 +2,14 @@
 
 use galpix_core::Rounding;
 use galpix_core::record::{Component, WIDEST_FIELD};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::extremes::{Extremes, Reach};
 use crate::certificate::{Unreachable, smallest};
 
 /// One axis of the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Axis {
     /// What leaving fields out costs at most, in pixels.
     pub left_out_px: f64,
@@ -19,7 +20,7 @@ pub struct Axis {
 }
 
 /// [`Component`] as it is written to JSON.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 #[serde(remote = "Component")]
 struct Widths {
     position_frac: u32,
@@ -38,7 +39,7 @@ impl Axis {
 }
 
 /// Fields and bits in the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Motion {
     /// Whether there is a velocity.
     pub velocity: bool,

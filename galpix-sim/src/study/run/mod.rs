@@ -70,6 +70,9 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     let times: Vec<f64> = reports.iter().map(|report: &FrameReport| report.ns_per_galpixel).collect();
     let (layout, scale) = (format.record().layout(), &format.record().scales[0]);
     let certificate = Certificate::of(scale, layout.acceleration, request.rounding, demand.prop);
+    for frame in &mut reports {
+        frame.certified_px = certificate.after(frame.frame);
+    }
     Ok(RunReport {
         source: source.name().to_owned(),
         width: update.display_width(),
@@ -105,6 +108,7 @@ fn report(frame: &Frame<'_>, position: Option<PositionReport>, truth: Option<Tru
         edges,
         ns_per_galpixel: frame.time.as_secs_f64() * 1e9 / f64::from(moved.max(1)),
         position,
+        certified_px: None,
         from_hidden: None,
         truth,
     }

@@ -1,6 +1,9 @@
 //! What a run reports, as it is written to JSON.
 
+use std::collections::BTreeMap;
+
 use galpix_core::{Bits, Demand, Record};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::certificate::Certificate;
@@ -11,7 +14,7 @@ use crate::source::capture::Census;
 use crate::source::hidden::HiddenReport;
 
 /// The widths in use, as they are reported.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct BudgetReport {
     /// `D` in pixels.
     pub extent: u32,
@@ -31,7 +34,7 @@ pub struct BudgetReport {
     pub acceleration_frac_bits: u32,
     /// Equation (14).
     pub motion_bits_per_component: u32,
-    /// Three components, in bytes.
+    /// Of the components that move, in bytes.
     pub motion_bytes_per_galpixel: f64,
     /// With colour, depth and flags, in whole words.
     pub stored_bytes_per_galpixel: usize,
@@ -41,6 +44,9 @@ impl BudgetReport {
     /// Reports the widths of a stored form, and the design numbers that they come from.
     #[must_use]
     pub fn of(demand: Demand, bits: Bits, record: &Record) -> Self {
+        let layout = record.layout();
+        let moves = [(bits.x, layout.velocity), (bits.y, layout.velocity), (bits.z, layout.depth_motion)];
+        let motion_bits: u32 = moves.iter().map(|(axis, moves)| if *moves { axis.motion_bits() } else { 0 }).sum();
         Self {
             extent: demand.extent,
             recog: demand.recog,
@@ -51,15 +57,14 @@ impl BudgetReport {
             acceleration_int_bits: bits.x.acceleration_int,
             acceleration_frac_bits: bits.x.acceleration_frac,
             motion_bits_per_component: bits.x.motion_bits(),
-            motion_bytes_per_galpixel: f64::from(bits.x.motion_bits() + bits.y.motion_bits() + bits.z.motion_bits())
-                / 8.0,
+            motion_bytes_per_galpixel: f64::from(motion_bits) / 8.0,
             stored_bytes_per_galpixel: record.bytes(),
         }
     }
 }
 
 /// What the comparison with a truth gave.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct TruthReport {
     /// Of the whole picture.
     pub psnr_db: Option<f64>,
@@ -100,7 +105,7 @@ impl TruthReport {
 }
 
 /// How a frame differs from the one before, against how the truths differ: over the cells that are inside in both.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ChangeReport {
     /// Mean of |change shown - true change| of luma, in code values: the temporal error.
     pub error: Option<f64>,
@@ -113,7 +118,7 @@ pub struct ChangeReport {
 
 /// How far galpixels of the update are from where they should be, in pixels, before the snap to a cell; of each
 /// galpixel the larger of x and y.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PositionReport {
     /// The worst, against the exact second-order path of the update's motion: what the certificate bounds.
     pub worst_px: f64,
@@ -126,7 +131,7 @@ pub struct PositionReport {
 }
 
 /// One frame.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FrameReport {
     /// Frames since the update.
     pub frame: u32,
@@ -152,6 +157,8 @@ pub struct FrameReport {
     pub ns_per_galpixel: f64,
     /// Of the galpixels of the update that are still on the map.
     pub position: Option<PositionReport>,
+    /// The certificate for the first of these up to this frame; none beyond `tau_prop`.
+    pub certified_px: Option<f64>,
     /// Cells of the display that show a galpixel of a layer behind the first, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_hidden: Option<u32>,
@@ -166,7 +173,7 @@ impl Measured for FrameReport {
 }
 
 /// A whole run.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RunReport {
     /// Scene or capture.
     pub source: String,
@@ -189,11 +196,13 @@ pub struct RunReport {
     /// Median over the frames.
     pub ns_per_galpixel: f64,
     /// What entered with the update.
+    #[schemars(with = "BTreeMap<String, u32>")]
     pub loaded: LoadTally,
     /// Which hidden samples were handed over, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hidden: Option<HiddenReport>,
     /// What was known of a capture's cells.
+    #[schemars(with = "Option<BTreeMap<String, serde_json::Value>>")]
     pub census: Option<Census>,
     /// The certificate in x and y.
     pub certificate: Certificate,
@@ -202,6 +211,14 @@ pub struct RunReport {
     pub displayed_px: f64,
     /// The frames from 1 on.
     pub frames: Vec<FrameReport>,
+}
+
+impl RunReport {
+    /// Returns whether SSIM and FLIP were worked out.
+    #[must_use]
+    pub fn perceptual(&self) -> bool {
+        self.frames.iter().any(|frame| frame.truth.is_some_and(|truth| truth.flip.is_some()))
+    }
 }
 
 impl Measured for RunReport {

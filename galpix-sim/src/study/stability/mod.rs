@@ -29,10 +29,12 @@ pub use exact::Px;
 pub use page::html;
 pub use setting::{Law, Ranges, Setting, SettingError};
 pub use summary::{CaseReport, PathReport, PictureReport, Report, RoundingReport, SeriesRow, Shares};
+pub use text::LEGEND;
 
 use super::run::BudgetReport;
 use super::{File, Found, NoExtra, PathPrinted, Silent, Stage, Study, StudyError, Work};
 use crate::engine::EngineError;
+use crate::suggest::hint;
 use mover::{Mover, Strip};
 use verdict::{Verdict, judge};
 
@@ -43,7 +45,7 @@ pub enum StabilityError {
     #[error("{0}")]
     Setting(#[from] SettingError),
     /// There is no such case.
-    #[error("there is no case `{name}`: give one or more of {}", names().join(", "))]
+    #[error("there is no case `{name}`{}: give one or more of {}", hint(name, names()), names().join(", "))]
     NoSuchCase {
         /// The request.
         name: String,
@@ -86,6 +88,7 @@ impl Study for Request {
     type Report = Report;
     type Extra = NoExtra;
 
+    const NAME: &'static str = "stability";
     const PATH: PathPrinted = PathPrinted::Always;
 
     fn name<'a>(&self, (): &'a ()) -> &'a str {
@@ -113,9 +116,9 @@ impl Study for Request {
         NoExtra {}
     }
 
-    /// Returns the report of the suite, without anything around it.
+    /// Returns the report of the suite, for there is no list of sources.
     fn json(&self, document: &Document) -> serde_json::Result<String> {
-        serde_json::to_string_pretty(&document.sources.first())
+        serde_json::to_string_pretty(&document.sources.first().map(|report| document.headed(report)))
     }
 
     fn files(&self, document: &Document) -> Result<Vec<File>, StudyError> {

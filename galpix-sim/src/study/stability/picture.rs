@@ -6,6 +6,7 @@ use galpix_core::stages::{self, FILLED, NO_WINNER};
 use galpix_core::{
     Class, Controller, Dynamic, FillMode, Galpixel, Galpixmap, Grid, Layout, Margin, Rounding, Scratch, Settings, Tally,
 };
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::exact::Px;
@@ -80,7 +81,7 @@ impl Census {
 }
 
 /// What a picture gave with one fill mode.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 pub struct Outcome {
     /// The picture's name.
     pub picture: String,

@@ -3,6 +3,7 @@
 mod shares;
 
 use galpix_core::Rounding;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cases::Case;
@@ -18,7 +19,7 @@ use shares::series;
 pub use shares::{SeriesRow, Shares};
 
 /// The whole suite.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Report {
     /// The budget.
     pub budget: BudgetReport,
@@ -29,7 +30,7 @@ pub struct Report {
 }
 
 /// One case with each rounding.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CaseReport {
     /// Its name.
     pub name: &'static str,
@@ -42,7 +43,7 @@ pub struct CaseReport {
 }
 
 /// One case with one rounding. Errors are the largest of any path in any frame, in pixels.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RoundingReport {
     /// The rounding.
     pub rounding: &'static str,
@@ -67,7 +68,7 @@ pub struct RoundingReport {
 }
 
 /// One path.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PathReport {
     /// What distinguishes it from the others.
     pub name: String,
@@ -90,7 +91,7 @@ pub struct PathReport {
 }
 
 /// One picture, all fill modes together.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 #[allow(missing_docs)] // as in `picture::Outcome`
 pub struct PictureReport {
     pub name: String,

@@ -4,6 +4,13 @@ use super::summary::{CaseReport, PictureReport, Report, RoundingReport, Shares};
 use super::verdict::{Uncovered, Verdict};
 use crate::output::column::{Column, Table, Value};
 
+/// What the columns are.
+pub const LEGEND: &str = "paths: the largest error in any frame, in px, as a sum of what second order cannot know (Taylor), what is stored in few \
+bits (quant), rounding in each frame (drift), the cell that shows it (snap) and ranges that stopped it (satur); bound: the most that the law of the \
+budget allows of quant and drift; f32, f64: the error of the same path in floats; clamped: fields that a range stopped. pictures: galpixels that \
+moved, settled in a cell, were lost over the border or collided, cells left as holes, the largest error and its bound in px. drift: the largest of \
+each rounding.";
+
 /// A case, and the rounding that is shown of it.
 struct Row<'r> {
     case: &'r CaseReport,

@@ -8,7 +8,7 @@ use super::setting::Law;
 const FLOAT_PX: f64 = 1e-9;
 
 /// How a case came out. The worst of several is the greatest.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// The error is within the certificate in every frame.
@@ -32,7 +32,7 @@ impl Verdict {
 }
 
 /// What the certificate does not cover of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema)]
 pub struct Uncovered {
     /// The largest Taylor error where it takes a galpixel out of its bound, in pixels.
     pub taylor_px: Option<f64>,

@@ -1,3 +1,6 @@
+use galpix_core::record::Component;
+use galpix_core::{Bits, FillMode, Layout, Profile, Rounding, Settings};
+
 /// 81 bits in 3 words per galpixel.
 pub enum PlannedPan {}
 impl Profile for PlannedPan {

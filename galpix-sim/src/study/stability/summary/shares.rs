@@ -1,5 +1,6 @@
 //! The shares of an error: the largest of a path, and frame by frame.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::causes::Row;
@@ -7,7 +8,7 @@ use super::super::exact::Px;
 use super::super::setting::Law;
 
 /// The largest error by cause, in pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Shares {
     /// What position, velocity and acceleration cannot know.
     pub taylor_px: f64,
@@ -34,7 +35,7 @@ pub struct Shares {
 }
 
 /// One frame of a path, in pixels with their signs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs)] // as in `Shares`
 pub struct SeriesRow {
     pub frame: u32,
