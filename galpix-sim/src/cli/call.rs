@@ -9,7 +9,7 @@ use crate::source::{Source, scene};
 
 /// Returns the sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
-    let open = |name: &String| Source::open(name, options).map_err(CliError::unusable);
+    let open = |name: &String| super::open(name, options);
     if names.is_empty() { Ok(all()) } else { names.iter().map(open).collect() }
 }
 

@@ -24,6 +24,10 @@ use std::process::ExitCode;
 
 use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
+
+use crate::source::Source;
+use crate::source::capture::ImportOptions;
+
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
@@ -138,6 +142,16 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     let reason = reason.join(" ");
     note(&format!("galpix: {}; `--help` lists what can be given", printable(reason.trim_start_matches("error: "))));
     ExitCode::from(2)
+}
+
+/// Opens a scene or a capture, and writes what is noteworthy of it on standard error.
+fn open(name: &str, options: &ImportOptions) -> Result<Source, CliError> {
+    let source = Source::open(name, options).map_err(CliError::unusable)?;
+    let notes = source.census().map(|census| census.notes.as_slice()).unwrap_or_default();
+    for text in notes {
+        note(&format!("{}: note: {}", printable(source.name()), printable(text)));
+    }
+    Ok(source)
 }
 
 /// Writes a line on standard error. A reader that has gone away is no failure.

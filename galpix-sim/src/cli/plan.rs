@@ -6,7 +6,6 @@ use clap::Args;
 
 use super::choices::{AccelerationChoice, pixels};
 use super::{CliError, print, print_json, printable};
-use crate::source::Source;
 use crate::study::job::Request;
 use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
 
@@ -45,7 +44,7 @@ pub struct PlanArguments {
 impl PlanArguments {
     /// Makes the plan.
     pub fn run(&self) -> Result<(), CliError> {
-        let source = Source::open(&self.source, &self.acceleration.into()).map_err(CliError::unusable)?;
+        let source = super::open(&self.source, &self.acceleration.into())?;
         let request = Request {
             frames: self.frames,
             extent: self.extent,

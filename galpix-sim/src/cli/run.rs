@@ -10,7 +10,6 @@ use super::{CliError, note, print, print_json, printable, progress};
 use crate::output::column::{Column, Table, Value};
 use crate::output::measures;
 use crate::output::save::file_name;
-use crate::source::Source;
 use crate::study::job::{Job, Request};
 use crate::study::run::{self, FrameReport, RunReport, TruthReport};
 
@@ -36,7 +35,7 @@ impl Run {
     pub fn run(&self) -> Result<(), CliError> {
         let request = self.extrapolation.request()?;
         let request = Request { strategy: self.hidden.strategy(request.scheme), ..request };
-        let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
+        let source = super::open(&self.source, &self.extrapolation.acceleration.into())?;
         let job = Job::resolve(&source, &request).map_err(CliError::unusable)?;
         run::check_strategy(&source, request.strategy).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));

@@ -70,6 +70,9 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     let times: Vec<f64> = reports.iter().map(|report: &FrameReport| report.ns_per_galpixel).collect();
     let (layout, scale) = (format.record().layout(), &format.record().scales[0]);
     let certificate = Certificate::of(scale, layout.acceleration, request.rounding, demand.prop);
+    // A velocity is off by up to half of its step, in each frame.
+    let by_steps =
+        source.census().and_then(|census| census.motion_step_px).unwrap_or(0.0) / 2.0 * f64::from(demand.prop);
     Ok(RunReport {
         source: source.name().to_owned(),
         width: update.display_width(),
@@ -84,7 +87,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         loaded: ran.loaded,
         hidden: (request.strategy != Strategy::ONE).then(|| HiddenReport::of(request.strategy, &carried, &ran)),
         census: source.census().cloned(),
-        displayed_px: certificate.total_px + shown_off_px(request.scan_out, scale.position_frac),
+        displayed_px: certificate.total_px + shown_off_px(request.scan_out, scale.position_frac) + by_steps,
         certificate,
         frames: reports,
     })

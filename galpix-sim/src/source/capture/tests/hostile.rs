@@ -7,9 +7,9 @@ use png::ColorType;
 
 use super::super::manifest::MapFormat;
 use super::super::source::{Size, Source};
-use super::super::{CaptureError, ImportOptions, colour, load, raster};
+use super::super::{CaptureError, ImportOptions, colour, load};
 use super::encode::{self, Precision};
-use super::folder::{Folder, H, SIZE, W, cells, check_refusal, source};
+use super::folder::{self, Folder, H, SIZE, W, cells, check_refusal, source};
 
 /// Random changes to each file, unless the time is over.
 const CHANGES: u64 = 3000;
@@ -20,11 +20,11 @@ const TEXT_CHANGES: u64 = 300;
 type Reader = fn(&Source) -> Result<(), CaptureError>;
 
 fn picture(source: &Source) -> Result<(), CaptureError> {
-    colour::read(source, None, Some(SIZE)).map(|picture| assert_eq!(picture.pixels.len(), W * H))
+    folder::picture(source, None, Some(SIZE)).map(|picture| assert_eq!(picture.pixels.len(), W * H))
 }
 
 fn picture_of_any_size(source: &Source) -> Result<(), CaptureError> {
-    colour::read(source, None, None).map(|p| assert_eq!(p.pixels.len(), p.width * p.height))
+    folder::picture(source, None, None).map(|p| assert_eq!(p.pixels.len(), p.width * p.height))
 }
 
 fn mask(source: &Source) -> Result<(), CaptureError> {
@@ -32,7 +32,7 @@ fn mask(source: &Source) -> Result<(), CaptureError> {
 }
 
 fn map(source: &Source, format: MapFormat, channel: Option<&str>) -> Result<(), CaptureError> {
-    raster::numbers(source, channel, format, SIZE).map(|numbers| assert_eq!(numbers.len(), W * H))
+    folder::numbers(source, channel, format).map(|numbers| assert_eq!(numbers.len(), W * H))
 }
 
 fn raw(source: &Source) -> Result<(), CaptureError> {
@@ -40,7 +40,7 @@ fn raw(source: &Source) -> Result<(), CaptureError> {
 }
 
 fn flow(source: &Source) -> Result<(), CaptureError> {
-    raster::flow(source, SIZE).map(|flow| assert_eq!(flow.len(), W * H))
+    folder::flow_of(source, SIZE).map(|flow| assert_eq!(flow.len(), W * H))
 }
 
 /// Returns one small file of each format, and who reads it.
@@ -239,7 +239,7 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     let frame = jpeg.windows(2).position(|w| w == [0xff, 0xc0]).unwrap();
     let huge = i32::MAX.to_le_bytes();
     let huge_pieh = patched(encode::pieh(4, 3, &[0.0; 24]), 4, &[huge, huge].concat());
-    let any = |s: &Source| colour::read(s, None, None).map(drop);
+    let any = |s: &Source| folder::picture(s, None, None).map(drop);
     let cases: [(&str, Vec<u8>, Reader); 12] = [
         ("a.png", png_of(2_000_000_000), any),
         ("b.png", png_of(16_384), any),
@@ -262,6 +262,6 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     }
     // The largest sizes that are allowed, in files that hold nothing of it.
     let allowed = Size { width: 16_384, height: 4096 };
-    let error = raster::flow(&source("l.flo", encode::pieh(16_384, 4096, &[0.0; 24])), allowed).unwrap_err();
+    let error = folder::flow_of(&source("l.flo", encode::pieh(16_384, 4096, &[0.0; 24])), allowed).unwrap_err();
     check_refusal(&error, "l.flo", "where its header promises 536870912");
 }
