@@ -9,8 +9,10 @@ use crate::source::{Source, scene};
 
 /// Returns the sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], options: &ImportOptions) -> Result<Vec<Source>, CliError> {
-    let open = |name: &String| super::open(name, options);
-    if names.is_empty() { Ok(all()) } else { names.iter().map(open).collect() }
+    let open = |name: &String| Source::open(name, options).map_err(CliError::unusable);
+    let sources = if names.is_empty() { all() } else { names.iter().map(open).collect::<Result<_, _>>()? };
+    sources.iter().for_each(super::remark);
+    Ok(sources)
 }
 
 /// Returns the built-in scenes, and the project's own capture if its folder is there.

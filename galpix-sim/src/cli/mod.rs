@@ -26,7 +26,6 @@ use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 use crate::source::Source;
-use crate::source::capture::ImportOptions;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -144,14 +143,12 @@ fn unparsed(error: &clap::Error) -> ExitCode {
     ExitCode::from(2)
 }
 
-/// Opens a scene or a capture, and writes what is noteworthy of it on standard error.
-fn open(name: &str, options: &ImportOptions) -> Result<Source, CliError> {
-    let source = Source::open(name, options).map_err(CliError::unusable)?;
+/// Writes what is noteworthy of a capture on standard error: after what may refuse it, which is one sentence alone.
+fn remark(source: &Source) {
     let notes = source.census().map(|census| census.notes.as_slice()).unwrap_or_default();
     for text in notes {
         note(&format!("{}: note: {}", printable(source.name()), printable(text)));
     }
-    Ok(source)
 }
 
 /// Writes a line on standard error. A reader that has gone away is no failure.

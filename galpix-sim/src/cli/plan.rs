@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::choices::{AccelerationChoice, pixels};
 use super::{CliError, print, print_json, printable};
+use crate::source::Source;
 use crate::study::job::Request;
 use crate::study::plan::{self, Axis, Measured, Plan, PlanError, Planning};
 
@@ -44,7 +45,7 @@ pub struct PlanArguments {
 impl PlanArguments {
     /// Makes the plan.
     pub fn run(&self) -> Result<(), CliError> {
-        let source = super::open(&self.source, &self.acceleration.into())?;
+        let source = Source::open(&self.source, &self.acceleration.into()).map_err(CliError::unusable)?;
         let request = Request {
             frames: self.frames,
             extent: self.extent,
@@ -58,6 +59,7 @@ impl PlanArguments {
             PlanError::Engine(_) => CliError::Failed(error.to_string()),
             _ => CliError::unusable(error),
         })?;
+        super::remark(&source);
         if self.json { print_json(&planning) } else { print(&text(&planning)) }
     }
 }

@@ -10,6 +10,7 @@ use super::{CliError, note, print, print_json, printable, progress};
 use crate::output::column::{Column, Table, Value};
 use crate::output::measures;
 use crate::output::save::file_name;
+use crate::source::Source;
 use crate::study::job::{Job, Request};
 use crate::study::run::{self, FrameReport, RunReport, TruthReport};
 
@@ -35,7 +36,7 @@ impl Run {
     pub fn run(&self) -> Result<(), CliError> {
         let request = self.extrapolation.request()?;
         let request = Request { strategy: self.hidden.strategy(request.scheme), ..request };
-        let source = super::open(&self.source, &self.extrapolation.acceleration.into())?;
+        let source = Source::open(&self.source, &self.extrapolation.acceleration.into()).map_err(CliError::unusable)?;
         let job = Job::resolve(&source, &request).map_err(CliError::unusable)?;
         run::check_strategy(&source, request.strategy).map_err(CliError::unusable)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("galpix-out").join(file_name(source.name())));
@@ -54,6 +55,7 @@ impl Run {
         .map_err(CliError::unusable)?;
         bar.finish_and_clear();
         written?;
+        super::remark(&source);
         note(&format!("{} frames and the update in {}", report.frames.len(), out.display()));
         if self.json { print_json(&report) } else { print(&table(&report)) }
     }

@@ -6,6 +6,7 @@ use galpix_link::panel::{Description, Lcd, Oled, Panel};
 use super::{CliError, note, print, print_json, printable};
 use crate::cli::progress;
 use crate::send::{self, Address, Report, Request};
+use crate::source::Source;
 use crate::source::capture::ImportOptions;
 
 /// A display that galpix knows.
@@ -58,7 +59,7 @@ impl Send {
     /// Sends the source.
     pub fn run(&self) -> Result<(), CliError> {
         let unusable = |error: &dyn std::fmt::Display| CliError::Unusable(printable(&error.to_string()));
-        let source = super::open(&self.source, &ImportOptions::default())?;
+        let source = Source::open(&self.source, &ImportOptions::default()).map_err(CliError::unusable)?;
         if source.update().overlay.is_some() {
             note(&format!(
                 "{}: what is pinned over the picture is not sent, the line has no message for it",
@@ -79,6 +80,7 @@ impl Send {
         let report = report.map_err(|error| {
             if error.unusable() { unusable(&error) } else { CliError::Failed(printable(&error.to_string())) }
         })?;
+        super::remark(&source);
         if self.json { print_json(&report) } else { print(&text(&report)) }
     }
 }

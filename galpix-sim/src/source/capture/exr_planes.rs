@@ -6,7 +6,11 @@
 
 use std::io::Cursor;
 
+use exr::block::chunk::TileCoordinates;
+use exr::block::reader::ChunksReader;
+use exr::error::Error;
 use exr::image::{AnyChannel, FlatSamples};
+use exr::math::Vec2;
 use exr::meta::MetaData;
 use exr::prelude::{ReadChannels, ReadLayers, read};
 
@@ -41,6 +45,7 @@ impl<'a> Planes<'a> {
     /// Decodes the file; sizes are checked before any pixel is read.
     pub fn read(source: &'a Source) -> Result<Self, CaptureError> {
         check_headers(source)?;
+        check_chunks(source).map_err(|e| source.damaged(e))?;
         let image = read()
             .no_deep_data()
             .largest_resolution_level()
@@ -208,6 +213,25 @@ fn check_headers(source: &Source) -> Result<(), CaptureError> {
     }
     if decoded > MAX_DECODED {
         return Err(source.fault(format!("would take {decoded} bytes when decoded"), "export only the passes named"));
+    }
+    Ok(())
+}
+
+/// Refuses chunks that say they lie elsewhere than the table of offsets has them: the decoder takes them at their word,
+/// and writes beyond its picture.
+fn check_chunks(source: &Source) -> exr::error::UnitResult {
+    let chunks = exr::block::read(Cursor::new(source.bytes.as_slice()), false)?;
+    let largest = |tile: TileCoordinates| tile.level_index == Vec2(0, 0);
+    let chunks = chunks.filter_chunks(false, |_, tile, _| largest(tile))?;
+    let meta = chunks.meta_data().clone();
+    for chunk in chunks {
+        let chunk = chunk?;
+        let header = meta.headers.get(chunk.layer_index).ok_or(Error::Invalid("part of a chunk".into()))?;
+        let tile = header.get_block_data_indices(&chunk.compressed_block)?;
+        if !largest(tile) {
+            return Err(Error::Invalid("level of a chunk".into()));
+        }
+        header.get_absolute_block_pixel_coordinates(tile)?;
     }
     Ok(())
 }

@@ -74,6 +74,12 @@ fn files() -> Vec<(&'static str, Vec<u8>, Reader)> {
         ("a.npy", encode::npy_f4("(3, 4)", &ramp), raw),
         ("flow.npy", encode::npy_f4("(3, 4, 2)", &doubled), flow),
         ("long.npy", encode::npy(3, "<f4", true, "(3, 4)", &[0; 48]), raw),
+        ("a.npz", encode::npz(&[("z", encode::npy_f4("(3, 4)", &ramp))], false), raw),
+        ("packed.npz", encode::npz(&[("f", encode::npy_f4("(3, 4, 2)", &doubled))], true), flow),
+        ("turned.jpg", encode::jpeg_with_exif(&encode::jpeg(4, 3, &narrow), &encode::exif(3)), picture),
+        ("window.exr", encode::exr_window([2, 2], [1, 1], [4, 3], &[("Z", vec![2.0; 4])]), raw),
+        ("motion.exr", encode::exr(W, H, Precision::Half, &[("u", ramp.clone()), ("v", ramp.clone())]), flow),
+        ("rgb24.png", encode::png8(4, 3, ColorType::Rgb, &narrow), |s| map(s, MapFormat::Rgb24, None)),
         ("a.pfm", encode::pfm(W, H, 1, false, &ramp), raw),
         ("flow.pfm", encode::pfm(W, H, 3, true, &tripled), flow),
     ]
@@ -166,6 +172,9 @@ fn damaged_texts_never_panic() {
         ("log", path),
         ("tum", "1 0 0 0 0 0 0 1\n".repeat(3)),
         ("tartanair", "0 0 0 0 0 0 1\n".repeat(3)),
+        ("kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n".repeat(3)),
+        ("euroc", "1000000000,0,0,0,1,0,0,0\n2000000000,0,0,0,1,0,0,0\n3000000000,0,0,0,1,0,0,0\n".to_owned()),
+        ("colmap", "1 1 0 0 0 0 0 0 1 a1.png\n\n2 1 0 0 0 0 0 0 1 a2.png\n\n3 1 0 0 0 0 0 0 1 a3.png\n\n".to_owned()),
         ("transforms", format!("{{\"fl_x\": 9, \"cx\": 2, \"cy\": 1, \"frames\": [{frame}, {frame}, {frame}]}}")),
         ("matrix-files", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n".to_owned()),
     ];
