@@ -128,6 +128,7 @@ fn combined(
     let planes = Planes::read(source)?;
     let prefix = channel.unwrap_or(if planes.has("Combined.R") { "Combined" } else { "" });
     let names = ["R", "G", "B"].map(|name| under(prefix, name));
+    planes.note_primaries(canvas);
     let size = expected.map_or_else(|| planes.display(), Ok)?;
     let bands = planes.bands(&names, &mut Canvas { size, notes: canvas.notes })?;
     let [r, g, b] = &bands.bands[..] else { return Err(source.damaged("it lacks a colour")) };

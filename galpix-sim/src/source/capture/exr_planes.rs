@@ -8,10 +8,12 @@ use std::io::Cursor;
 
 use exr::block::chunk::TileCoordinates;
 use exr::block::reader::ChunksReader;
+use exr::compression::Compression;
 use exr::error::Error;
 use exr::image::{AnyChannel, FlatSamples};
 use exr::math::Vec2;
 use exr::meta::MetaData;
+use exr::meta::attribute::{Chromaticities, SampleType};
 use exr::prelude::{ReadChannels, ReadLayers, read};
 
 use super::error::CaptureError;
@@ -27,6 +29,10 @@ pub(super) struct Planes<'a> {
     channels: Vec<Named>,
     /// Columns and rows of the display window.
     display: [u64; 2],
+    /// The compression of a part that changes its numbers.
+    lossy: Option<Compression>,
+    /// Whether colours are meant for other primaries than sRGB's.
+    foreign: bool,
 }
 
 /// One channel, where its part's data window lies.
@@ -57,9 +63,21 @@ impl<'a> Planes<'a> {
             .map_err(|e| source.damaged(e))?;
         let window = image.attributes.display_window;
         let display = [window.size.0 as u64, window.size.1 as u64];
+        let foreign = image.attributes.chromaticities.is_some_and(|found| !is_srgb(found));
+        let mut lossy = None;
         let mut channels = Vec::new();
         for layer in image.layer_data {
             let part = layer.attributes.layer_name.map(|name| name.to_string()).filter(|name| !name.is_empty());
+            let compression = layer.encoding.compression;
+            let loses = |channel: &AnyChannel<FlatSamples>| {
+                let kind = match channel.sample_data {
+                    FlatSamples::F16(_) => SampleType::F16,
+                    FlatSamples::F32(_) => SampleType::F32,
+                    FlatSamples::U32(_) => SampleType::U32,
+                };
+                !compression.is_lossless_for(kind)
+            };
+            lossy = lossy.or(layer.channel_data.list.iter().any(loses).then_some(compression));
             let size = [layer.size.0 as u64, layer.size.1 as u64];
             let first = layer.attributes.layer_position;
             let place =
@@ -70,7 +88,7 @@ impl<'a> Planes<'a> {
                 channels.push(Named { name, in_part, size, place, samples: sample_data });
             }
         }
-        Ok(Self { source, channels, display })
+        Ok(Self { source, channels, display, lossy, foreign })
     }
 
     /// Returns the only channel of the file, if it has just one.
@@ -81,6 +99,20 @@ impl<'a> Planes<'a> {
     /// Returns whether `name` names a channel; ambiguous counts as yes.
     pub fn has(&self, name: &str) -> bool {
         !self.candidates(name).is_empty()
+    }
+
+    /// Notes what was lost in numbers that are no colours.
+    pub fn note_losses(&self, canvas: &mut Canvas<'_>) {
+        if let Some(compression) = self.lossy {
+            canvas.note(self.source, &format!("has {compression}, which has losses: its numbers are not exact"));
+        }
+    }
+
+    /// Notes what its colours are meant for and is not followed.
+    pub fn note_primaries(&self, canvas: &mut Canvas<'_>) {
+        if self.foreign {
+            canvas.note(self.source, "says that its colours are not those of sRGB; it is read as sRGB");
+        }
     }
 
     /// Returns the display window's size, within the importers' limits.
@@ -155,6 +187,15 @@ impl<'a> Planes<'a> {
         let more = if self.channels.len() > SHOWN { ", ..." } else { "" };
         names.join(", ") + more
     }
+}
+
+/// Returns whether colours have the primaries and white of sRGB, as Rec. 709 has them.
+fn is_srgb(found: Chromaticities) -> bool {
+    let near = |found: Vec2<f32>, [x, y]: [f32; 2]| (found.0 - x).abs() < 0.002 && (found.1 - y).abs() < 0.002;
+    near(found.red, [0.64, 0.33])
+        && near(found.green, [0.30, 0.60])
+        && near(found.blue, [0.15, 0.06])
+        && near(found.white, [0.3127, 0.3290])
 }
 
 /// Says what becomes of a data window that is not the display window.
@@ -269,8 +310,6 @@ fn check_compression(source: &Source) -> Result<(), CaptureError> {
         just_ended = name.is_empty();
         at = next;
         let unread = match (name, value) {
-            (b"compression", [8]) => "DWAA",
-            (b"compression", [9]) => "DWAB",
             (b"compression", [10]) => "HTJ2K (256 rows)",
             (b"compression", [11]) => "HTJ2K (32 rows)",
             (b"compression", [kind]) if *kind > 11 => "a kind newer than HTJ2K",

@@ -55,6 +55,7 @@ pub(super) fn numbers(source: &Source, layout: &Layout<'_>, canvas: &mut Canvas<
             let hint = format!("name one of them with the key channel: {}", planes.list());
             return Err(source.fault("has several channels", hint));
         };
+        planes.note_losses(canvas);
         let bands = planes.bands(&[name.to_owned()], canvas)?;
         return fitted(source, bands, layout, canvas);
     }
@@ -102,6 +103,7 @@ pub(super) fn flow(source: &Source, layout: &Layout<'_>, canvas: &mut Canvas<'_>
         Format::Pfm => pfm::read(source)?,
         Format::Exr => {
             let planes = Planes::read(source)?;
+            planes.note_losses(canvas);
             let names = pair(source, &planes, layout)?;
             planes.bands(&names, canvas)?
         }

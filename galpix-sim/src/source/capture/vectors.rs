@@ -96,6 +96,7 @@ pub(super) fn flow(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) ->
 pub(super) fn planes(vectors: &Vectors, opened: Opened<'_>, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
     let source = Source::open(&opened.folder.join(&vectors.file))?;
     let planes = Planes::read(&source)?;
+    planes.note_losses(canvas);
     let prefix = vectors.channel.as_deref().unwrap_or("");
     let named = |name: &str| under(prefix, name);
     let names: Vec<String> = match &vectors.channels {
@@ -146,6 +147,7 @@ pub(super) fn planes(vectors: &Vectors, opened: Opened<'_>, canvas: &mut Canvas<
 pub(super) fn blender(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
     let source = Source::open(&folder.join(&vectors.file))?;
     let planes = Planes::read(&source)?;
+    planes.note_losses(canvas);
     let prefix = vectors.channel.as_deref().unwrap_or("Vector");
     let names = ["X", "Y", "Z", "W"].map(|name| under(prefix, name));
     let file = planes.bands(&names, canvas)?;
@@ -204,6 +206,7 @@ pub(super) fn space_warp(
         return Ok(Moved { tracks: vec![Some(Track::default()); cells], steps: Steps::default() });
     }
     let planes = Planes::read(&source)?;
+    planes.note_losses(canvas);
     let prefix = vectors.channel.as_deref().unwrap_or("");
     let names: Vec<String> = match &vectors.channels {
         Some(names) => names.iter().map(|name| under(prefix, name)).collect(),

@@ -80,6 +80,22 @@ pub fn exr_window(size: [usize; 2], place: [i32; 2], display: [usize; 2], list: 
     file.into_inner()
 }
 
+/// Returns an EXR of 4x3 with these primaries and this compression.
+pub fn exr_with(
+    chromaticities: Option<exr::meta::attribute::Chromaticities>,
+    compression: exr::prelude::Compression,
+    list: &[Channel],
+) -> Vec<u8> {
+    let encoding = exr::prelude::Encoding { compression, ..exr::prelude::Encoding::UNCOMPRESSED };
+    let layer = Layer::new((4, 3), LayerAttributes::default(), encoding, channels(list, Precision::Float));
+    let bounds = exr::prelude::IntegerBounds::from_dimensions((4, 3));
+    let mut image = Image::new(exr::prelude::ImageAttributes::new(bounds), layer);
+    image.attributes.chromaticities = chromaticities;
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
 /// Returns an EXR with several named parts.
 pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) -> Vec<u8> {
     let part = |(name, list): &(&str, Vec<Channel>)| {
