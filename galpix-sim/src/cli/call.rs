@@ -20,7 +20,9 @@ pub fn open(name: &str, acceleration: AccelerationChoice) -> Result<Source, CliE
 /// Returns the sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], acceleration: AccelerationChoice) -> Result<Vec<Source>, CliError> {
     if names.is_empty() {
-        return Ok(all(acceleration));
+        let sources = all(acceleration);
+        sources.iter().for_each(super::remark);
+        return Ok(sources);
     }
     let open = |name: &String| Source::open(name, &acceleration.into()).map_err(CliError::unusable);
     let sources = names.iter().map(open).collect::<Result<Vec<_>, _>>()?;
@@ -31,7 +33,10 @@ pub fn sources(names: &[String], acceleration: AccelerationChoice) -> Result<Vec
             "two sources are called `{}`: give each once, or another `name` in its manifest",
             printable(twice.name())
         ))),
-        None => Ok(sources),
+        None => {
+            sources.iter().for_each(super::remark);
+            Ok(sources)
+        }
     }
 }
 

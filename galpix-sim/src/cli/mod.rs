@@ -32,6 +32,8 @@ use clap::{Parser, Subcommand};
 
 use document::print_json;
 
+use crate::source::Source;
+
 /// The exit code after an interruption, that of shells.
 const INTERRUPTED: i32 = 130;
 
@@ -196,6 +198,13 @@ const PLAIN: [(&str, &str); 4] = [
 
 /// Whether nothing is said on standard error but what went wrong.
 static QUIET: AtomicBool = AtomicBool::new(false);
+/// Writes what is noteworthy of a capture on standard error: after what may refuse it, which is one sentence alone.
+fn remark(source: &Source) {
+    let notes = source.census().map(|census| census.notes.as_slice()).unwrap_or_default();
+    for text in notes {
+        note(&format!("{}: note: {}", printable(source.name()), printable(text)));
+    }
+}
 
 /// Writes a line on standard error. A reader that has gone away is no failure.
 fn complain(text: &str) {

@@ -70,6 +70,7 @@ impl PlanArguments {
             _ => CliError::unusable(error),
         })?;
         bar.finish_and_clear();
+        super::remark(&source);
         if let Some(out) = self.out.clone().or((!self.json).then(|| Path::new("galpix-out").join("plan"))) {
             std::fs::create_dir_all(&out).map_err(|error| CliError::unwritable(&out, &error))?;
             let path = out.join("plan.html");

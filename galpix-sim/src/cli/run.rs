@@ -74,6 +74,7 @@ impl Run {
         .map_err(CliError::unusable)?;
         bar.finish_and_clear();
         written.map_err(CliError::unusable)?;
+        super::remark(&source);
         note(&format!("{} frames and the update in {}", report.frames.len(), out.display()));
         let Some(film) = film else { return print_json("run", &report) };
         let csv = column::csv(&columns(), report.frames.iter().copied());

@@ -86,6 +86,7 @@ impl Send {
         let report = report.map_err(|error| {
             if error.unusable() { unusable(&error) } else { CliError::Failed(printable(&error.to_string())) }
         })?;
+        super::remark(&source);
         if self.json { print_json("send", &report) } else { print(&text(&report)) }
     }
 }

@@ -1,10 +1,13 @@
 //! Accelerations of captures: chained from a second flow, left out, limited, or smoothed.
 
 use super::camera::{Distance, Track};
+use super::coarse::Steps;
 use super::error::CaptureError;
-use super::manifest::{Background, Flow};
-use super::source::{Size, Source};
-use super::{Census, Opened, raster};
+use super::manifest::{Background, Vectors};
+use super::raster::Canvas;
+use super::source::Size;
+use super::vectors::{self, Moved};
+use super::{Census, Opened};
 
 /// What becomes of a capture's accelerations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,21 +25,24 @@ pub enum AccelerationPolicy {
 }
 
 /// Chains a second flow: `p1 = x + f1(x)`, `p2 = p1 + f2(p1)` (bilinear), and the parabola through `x`, `p1`, `p2`.
+/// Returns the steps of its displacements.
 ///
-/// The first displacement spans the `n1` display frames of the manifest's motion, the second `n2 = flow.frames`. Where
+/// The first displacement spans the `n1` display frames of the manifest's motion, the second `n2 = next.frames`. Where
 /// the second one is unknown, or `p1` is outside of the picture, the motion stays as it is and is counted. So it does,
 /// uncounted, in cells that start empty, and in the background, whose motion does not come from the flow.
 pub(super) fn chain(
     motion: &mut [Option<Track>],
     Opened { manifest, folder, size, distances }: Opened<'_>,
-    flow: &Flow,
+    next: &Vectors,
     census: &mut Census,
-) -> Result<(), CaptureError> {
-    let next = raster::flow(&Source::open(&folder.join(&flow.file))?, size)?;
-    let (n1, n2) = (f64::from(manifest.update.motion.frames()), f64::from(flow.frames));
+) -> Result<Steps, CaptureError> {
+    let Moved { tracks, steps } = vectors::flow(next, folder, &mut Canvas { size, notes: &mut census.notes })?;
+    let (n1, n2) = (f64::from(manifest.update.motion.frames()), f64::from(next.frames));
+    let next: Vec<Option<[f64; 2]>> =
+        tracks.into_iter().map(|track| track.map(|track| [track.velocity[0] * n2, track.velocity[1] * n2])).collect();
     let from_flow = |cell: usize| match distances.as_ref().map(|distances| distances[cell]) {
         Some(Distance::Unknown) => false,
-        Some(Distance::Far) => manifest.update.background == Background::Given,
+        Some(Distance::Far) => manifest.update.background() == Background::Given,
         Some(Distance::At(_)) | None => true,
     };
     for (cell, ((x, y), track)) in size.positions().zip(motion).enumerate() {
@@ -54,7 +60,30 @@ pub(super) fn chain(
             track.velocity[component] = slope - acceleration * n1 / 2.0;
         }
     }
-    Ok(())
+    Ok(steps)
+}
+
+/// Leaves out accelerations that two displacements in steps cannot tell from none; returns how many cells lost theirs.
+///
+/// Each displacement is off by at most half a step, so that their difference is off by a whole one. An acceleration is
+/// kept only where it is at least twice what that can feign: then its error is at most its true value, and using it is
+/// never worse than the velocity alone, which is what the cell falls back to. `span`: the display frames of the first
+/// displacement, over which the parabola has changed the velocity; 0 where it has not.
+pub(super) fn leave_out_feigned(motion: &mut [Option<Track>], feigned: Steps, span: f64) -> usize {
+    let mut left_out = 0;
+    for track in motion.iter_mut().flatten() {
+        let mut lost = false;
+        for component in 0..2 {
+            let acceleration = track.acceleration[component];
+            if acceleration != 0.0 && acceleration.abs() < 2.0 * feigned.0[component] {
+                track.velocity[component] += acceleration * span / 2.0;
+                track.acceleration[component] = 0.0;
+                lost = true;
+            }
+        }
+        left_out += usize::from(lost);
+    }
+    left_out
 }
 
 /// The flow at a place between cells; `None` outside of the picture or next to an unknown cell.

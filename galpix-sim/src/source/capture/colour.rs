@@ -1,41 +1,75 @@
 //! Colour pictures: PNG, JPEG, and EXR (linear light, encoded as sRGB here).
 
+use std::collections::VecDeque;
+
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
-use super::Census;
 use super::error::CaptureError;
 use super::exr_planes::{Planes, under};
+use super::orientation::Orientation;
 use super::png_raster;
+use super::raster::Canvas;
 use super::source::{Format, Size, Source};
 use crate::overlay::Overlay;
 use crate::picture::Picture;
 
-/// Reads a colour picture as 8-bit sRGB; alpha is left out.
+/// Reads a colour picture as 8-bit sRGB; alpha is left out, and what the file says of itself and is not used is noted.
 ///
 /// `channel` is for EXR only: the name before `.R`, `.G`, `.B`; without it the file must have plain `R G B` or exactly
 /// one pass `Combined`. `expected`: the size that the picture must have.
-pub(super) fn read(source: &Source, channel: Option<&str>, expected: Option<Size>) -> Result<Picture, CaptureError> {
+pub(super) fn read(
+    source: &Source,
+    channel: Option<&str>,
+    expected: Option<Size>,
+    notes: &mut Vec<String>,
+) -> Result<Picture, CaptureError> {
     let format = source.format()?;
     if let (Some(channel), Format::Png | Format::Jpeg) = (channel, format) {
         return Err(source.fault(format!("is no EXR and has no channel \"{channel}\""), "leave the key channel out"));
     }
+    let mut canvas = Canvas { size: expected.unwrap_or(Size { width: 1, height: 1 }), notes };
     let (size, pixels) = match format {
         Format::Png => {
-            let raster = png_raster::read(source, expected)?;
-            (raster.size, raster.colours())
+            let raster = png_raster::read(source, None)?;
+            raster.notes.iter().for_each(|note| canvas.note(source, note));
+            let alpha = (raster.channels % 2 == 0).then(|| raster.band(raster.channels - 1));
+            let translucent = alpha.map_or(0, |alpha| alpha.filter(|&alpha| alpha != raster.white).count());
+            if translucent > 0 {
+                let what = format!("has {translucent} pixels that are not opaque; its alpha is left out");
+                canvas.note(source, &what);
+            }
+            turned(source, raster.turned, (raster.size, raster.colours()), &mut canvas)
         }
-        Format::Jpeg => jpeg(source, expected)?,
-        Format::Exr => combined(source, channel, expected)?,
+        Format::Jpeg => jpeg(source, &mut canvas)?,
+        Format::Exr => combined(source, channel, expected, &mut canvas)?,
         _ => return Err(source.fault("is not a colour picture", "name a PNG, JPEG or EXR file")),
     };
+    source.agree(size.width as u64, size.height as u64, expected)?;
     Ok(Picture { width: size.width, height: size.height, pixels })
 }
 
-fn jpeg(source: &Source, expected: Option<Size>) -> Result<(Size, Vec<[u8; 3]>), CaptureError> {
+/// Returns a picture upright, and notes it if it was not stored so.
+fn turned(
+    source: &Source,
+    orientation: Option<Orientation>,
+    (size, pixels): (Size, Vec<[u8; 3]>),
+    canvas: &mut Canvas<'_>,
+) -> (Size, Vec<[u8; 3]>) {
+    let Some(orientation) = orientation else { return (size, pixels) };
+    let what = format!(
+        "says that it is {}, and is read upright: its depth and motion must be so, too (save it without Exif if they are \
+         as it is stored)",
+        orientation.text()
+    );
+    canvas.note(source, &what);
+    orientation.upright(size, &pixels)
+}
+
+fn jpeg(source: &Source, canvas: &mut Canvas<'_>) -> Result<(Size, Vec<[u8; 3]>), CaptureError> {
     let damaged = |e: DecodeErrors| source.damaged(e);
     // The decoder is lenient: it paints grey what a truncated file lacks.
     if !jpeg_is_whole(&source.bytes) {
@@ -48,11 +82,16 @@ fn jpeg(source: &Source, expected: Option<Size>) -> Result<(Size, Vec<[u8; 3]>),
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(source.bytes.as_slice()), options);
     decoder.decode_headers().map_err(damaged)?;
     let (width, height) = decoder.dimensions().ok_or_else(|| source.damaged("it has no size"))?;
-    let size = source.agree(width as u64, height as u64, expected)?;
+    let size = source.agree(width as u64, height as u64, None)?;
     let bytes = decoder.decode().map_err(damaged)?;
+    let orientation = decoder.exif().and_then(|exif| Orientation::of(exif));
+    let is_srgb = |profile: &[u8]| profile.windows(4).any(|name| name == b"sRGB");
+    if decoder.icc_profile().is_some_and(|profile| !is_srgb(&profile)) {
+        canvas.note(source, "has a colour profile, which is not used; it is read as sRGB");
+    }
     let (pixels, rest) = bytes.as_chunks::<3>();
     if pixels.len() == size.cells() && rest.is_empty() {
-        Ok((size, pixels.to_vec()))
+        Ok(turned(source, orientation, (size, pixels.to_vec()), canvas))
     } else {
         Err(source.damaged("its pixels do not fill its size"))
     }
@@ -84,13 +123,16 @@ fn combined(
     source: &Source,
     channel: Option<&str>,
     expected: Option<Size>,
+    canvas: &mut Canvas<'_>,
 ) -> Result<(Size, Vec<[u8; 3]>), CaptureError> {
     let planes = Planes::read(source)?;
     let prefix = channel.unwrap_or(if planes.has("Combined.R") { "Combined" } else { "" });
     let names = ["R", "G", "B"].map(|name| under(prefix, name));
-    let size = planes.size(&names[0], expected)?;
-    let [r, g, b] = [planes.band(&names[0], size)?, planes.band(&names[1], size)?, planes.band(&names[2], size)?];
-    Ok((size, r.iter().zip(&g).zip(&b).map(|((&r, &g), &b)| [r, g, b].map(srgb)).collect()))
+    planes.note_primaries(canvas);
+    let size = expected.map_or_else(|| planes.display(), Ok)?;
+    let bands = planes.bands(&names, &mut Canvas { size, notes: canvas.notes })?;
+    let [r, g, b] = &bands.bands[..] else { return Err(source.damaged("it lacks a colour")) };
+    Ok((bands.size, r.iter().zip(g).zip(b).map(|((&r, &g), &b)| [r, g, b].map(srgb)).collect()))
 }
 
 /// Returns linear light (1 = white) as an 8-bit sRGB code, IEC 61966-2-1; NaN becomes black.
@@ -100,9 +142,16 @@ fn srgb(linear: f64) -> u8 {
     (code * 255.0).round() as u8
 }
 
+/// What is pinned over a picture, and where anything of it is seen.
+pub(super) struct Pinned {
+    pub overlay: Overlay,
+    /// Whether the overlay is not quite transparent, for each pixel.
+    pub touched: Vec<bool>,
+}
+
 /// Returns what is pinned over a picture of `expected` size: the pixels of a PNG whose alpha is at least one half.
 /// Others that are not quite transparent, or not quite opaque, are noted.
-pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> Result<Overlay, CaptureError> {
+pub(super) fn overlay(source: &Source, expected: Size, notes: &mut Vec<String>) -> Result<Pinned, CaptureError> {
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as an overlay must be", "save it as a PNG with alpha"));
     }
@@ -115,13 +164,49 @@ pub(super) fn overlay(source: &Source, expected: Size, census: &mut Census) -> R
     let alphas: Vec<u16> = raster.band(raster.channels - 1).collect();
     let translucent = alphas.iter().filter(|&&alpha| alpha != 0 && alpha != raster.white).count();
     if translucent != 0 {
-        census
-            .notes
-            .push(format!("{translucent} translucent pixels of the overlay: pinned from an alpha of one half on"));
+        notes.push(format!("{translucent} translucent pixels of the overlay: pinned from an alpha of one half on"));
     }
+    let touched = alphas.iter().map(|&alpha| alpha != 0).collect();
     let pinned = |(colour, alpha): ([u8; 3], u16)| (alpha > raster.white / 2).then_some(colour);
     let pixels = raster.colours().into_iter().zip(alphas).map(pinned).collect();
-    Ok(Overlay { width: expected.width, height: expected.height, pixels })
+    Ok(Pinned { overlay: Overlay { width: expected.width, height: expected.height, pixels }, touched })
+}
+
+impl Pinned {
+    /// Returns which cells are unknown because the instruments are drawn into the picture, too; nothing if they are
+    /// left out of it. A pixel shows them where it has their colour, up to what compression changes.
+    pub fn drawn_into(&self, picture: &Picture) -> Option<&[bool]> {
+        /// Of a channel, in 8-bit code values.
+        const SAME: u8 = 16;
+        /// The part of the pinned pixels that must agree.
+        const MOST: f64 = 0.75;
+        let pinned = self.overlay.pixels.iter().zip(&picture.pixels).filter_map(|(pin, seen)| Some(((*pin)?, seen)));
+        let same = pinned.clone().filter(|(pin, seen)| pin.iter().zip(*seen).all(|(a, b)| a.abs_diff(*b) <= SAME));
+        let (count, same) = (pinned.count(), same.count());
+        (count > 0 && same as f64 >= MOST * count as f64).then_some(&self.touched)
+    }
+}
+
+/// Gives marked cells the colour of the nearest one that is not: what they showed was nothing of the scene.
+pub(super) fn cover(picture: &mut Picture, marked: &[bool]) {
+    let (width, height) = (picture.width, picture.height);
+    let mut open = marked.to_vec();
+    let mut found: VecDeque<usize> = (0..open.len()).filter(|&cell| !open[cell]).collect();
+    while let Some(cell) = found.pop_front() {
+        let (x, y) = (cell % width, cell / width);
+        let beside = [
+            (x > 0).then(|| cell - 1),
+            (x + 1 < width).then(|| cell + 1),
+            (y > 0).then(|| cell - width),
+            (y + 1 < height).then(|| cell + width),
+        ];
+        for next in beside.into_iter().flatten() {
+            if std::mem::take(&mut open[next]) {
+                picture.pixels[next] = picture.pixels[cell];
+                found.push_back(next);
+            }
+        }
+    }
 }
 
 /// Returns a mask of `expected` size: `true` where the comparison counts, that is, where any channel is not zero.
@@ -129,8 +214,5 @@ pub(super) fn mask(source: &Source, expected: Size) -> Result<Vec<bool>, Capture
     if source.format()? != Format::Png {
         return Err(source.fault("is not a PNG, as a mask must be", "save it as an 8-bit grey PNG"));
     }
-    let raster = png_raster::read(source, Some(expected))?;
-    // Alpha is no part of a mask.
-    let seen = if raster.channels >= 3 { 3 } else { 1 };
-    Ok(raster.values.chunks_exact(raster.channels).map(|p| p[..seen].iter().any(|&v| v != 0)).collect())
+    Ok(png_raster::read(source, Some(expected))?.counting())
 }

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::camera::{Distance, View as Between};
 use super::error::CaptureError;
-use super::manifest::{Acceleration, Camera, Depth, Hidden, Motion, View, Views};
+use super::manifest::{Acceleration, Camera, Hidden, Motion, View, Views};
+use super::raster::Canvas;
 use super::samples::{self, Unit};
 use super::source::{Size, Source};
 use super::{Census, ImportOptions, Opened, acceleration, colour, depth, motion, poses};
@@ -25,34 +26,35 @@ pub(super) fn read(
     let Opened { manifest, folder, size, distances: first } = opened;
     let Some(hidden) = &manifest.update.hidden else { return Ok(None) };
     let mut own = Census::default();
+    let update = &manifest.update;
     // All that is not about the second layer is as it is with the first.
     let mut behind = manifest.clone();
     let (picture, distances) = match hidden {
         Hidden::Layer(layer) => {
             let channel = layer.color.channel.as_deref().or(layer.channel.as_deref());
-            let picture = colour::read(&Source::open(&folder.join(&layer.color.file))?, channel, Some(size))?;
+            let file = Source::open(&folder.join(&layer.color.file))?;
+            let picture = colour::read(&file, channel, Some(size), &mut own.notes)?;
             behind.update.depth = layer.depth.clone();
             if let Some(motion) = &layer.motion {
                 behind.update.motion = motion.clone();
             }
-            (picture, depth::read(&layer.depth, folder, size)?)
+            let canvas = &mut Canvas { size, notes: &mut own.notes };
+            (picture, depth::read(&layer.depth, update, folder, canvas)?)
         }
         Hidden::Views(views) => {
-            let (picture, distances) = seen_from_elsewhere(opened, views, unit)?;
+            let (picture, distances) = seen_from_elsewhere(opened, views, unit, &mut own.notes)?;
             (picture, Some(distances))
         }
     };
-    let mut tracks = motion::read(Opened { manifest: &behind, distances: &distances, ..opened }, &mut own)?;
+    let mut tracks = motion::read(Opened { manifest: &behind, distances: &distances, ..opened }, &mut own)?.tracks;
     if matches!(manifest.update.acceleration, Some(Acceleration::No)) {
         acceleration::leave_out(&mut tracks);
     }
     acceleration::apply(options.acceleration, &mut tracks, &distances, size, manifest.frames);
     let mut update = samples::assemble(unit, &picture, &distances, &tracks, &mut own);
     let is_behind = |first: Distance, second: Distance| match (first, second) {
-        (Distance::At(first), Distance::At(second)) => match behind.update.depth {
-            Depth::Disparity(_) => second <= first,
-            _ => second >= first,
-        },
+        (Distance::At(first), Distance::At(second)) if behind.update.depth.is_distance() => second >= first,
+        (Distance::At(first), Distance::At(second)) => second <= first,
         (Distance::Far, _) => false,
         (Distance::At(_) | Distance::Unknown, _) => true,
     };
@@ -64,6 +66,7 @@ pub(super) fn read(
         }
     }
     census.hidden = Some(update.samples.iter().filter(|sample| sample.known == Known::Motion).count());
+    own.notes.retain(|note| !census.notes.contains(note));
     census.notes.extend(own.notes.into_iter().map(|note| format!("behind the first layer: {note}")));
     Ok(Some(update))
 }
@@ -78,18 +81,20 @@ fn seen_from_elsewhere(
     Opened { manifest, folder, size, distances: first }: Opened<'_>,
     views: &Views,
     unit: Unit,
+    notes: &mut Vec<String>,
 ) -> Result<(Picture, Vec<Distance>), CaptureError> {
     let mut picture = Picture::filled(size.width, size.height, [0; 3]);
     let mut nearest = vec![Distance::Unknown; size.cells()];
     let mut off = vec![0.0; size.cells()];
     // A manifest with another motion was refused.
     let Motion::Camera(camera) = &manifest.update.motion else { return Ok((picture, nearest)) };
-    let path = poses::read(camera, folder)?;
+    let path = poses::read(camera, folder, size)?;
     let [fx, fy, cx, cy] = path.intrinsics;
     let normalised = |z: f64| 1.0 - unit.nearest / z;
     for view in &views.views {
-        let (colours, distances) = read_view(view, folder, size)?;
-        let other = poses::read(&Camera { pose: view.pose, ..camera.clone() }, folder)?.now;
+        let (colours, distances) = read_view(view, folder, &mut Canvas { size, notes: &mut *notes })?;
+        let camera = Camera { pose: Some(view.pose), time: None, ..camera.clone() };
+        let other = poses::read(&camera, folder, size)?.now;
         let between = Between::new(&other, 0.0, &path.now);
         for (place, z, colour) in lattice(&colours, &distances, size) {
             let ray = [(place[0] - cx) / fx, (place[1] - cy) / fy, 1.0];
@@ -123,10 +128,11 @@ fn seen_from_elsewhere(
     Ok((picture, nearest))
 }
 
-fn read_view(view: &View, folder: &Path, size: Size) -> Result<(Picture, Vec<Distance>), CaptureError> {
+fn read_view(view: &View, folder: &Path, canvas: &mut Canvas<'_>) -> Result<(Picture, Vec<Distance>), CaptureError> {
     let channel = view.color.channel.as_deref().or(view.channel.as_deref());
-    let colours = colour::read(&Source::open(&folder.join(&view.color.file))?, channel, Some(size))?;
-    Ok((colours, depth::planar(&view.depth, folder, size)?))
+    let file = Source::open(&folder.join(&view.color.file))?;
+    let colours = colour::read(&file, channel, Some(canvas.size), canvas.notes)?;
+    Ok((colours, depth::planar(&view.depth, folder, canvas)?))
 }
 
 /// Returns the pixels of a view, and the places half way between those of one surface: place, distance, colour.

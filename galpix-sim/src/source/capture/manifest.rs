@@ -1,6 +1,8 @@
 //! The keys of `capture.toml`. Whatever is not named here is refused, so that a misspelt key never goes unnoticed.
 
+mod camera;
 mod hidden;
+mod vectors;
 
 use std::fmt;
 use std::path::Path;
@@ -8,7 +10,9 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::{self, MapAccess, Visitor, value::MapAccessDeserializer};
 
+pub(super) use camera::{Axes, Camera, PoseFormat, Quaternion, Transform};
 pub(super) use hidden::{Hidden, View, Views};
+pub(super) use vectors::{OneOrEach, Units, Upward, Vectors};
 
 use super::error::CaptureError;
 use super::source::Source;
@@ -41,8 +45,8 @@ pub(super) struct Update {
     pub depth: Depth,
     pub motion: Motion,
     pub acceleration: Option<Acceleration>,
-    #[serde(default)]
-    pub background: Background,
+    /// Default: `camera` where a camera is given, else `still`.
+    pub background: Option<Background>,
     /// What is pinned over the picture: a PNG with alpha.
     pub overlay: Option<Overlay>,
     /// For `background = "camera"` where the motion is not of the kind `camera`.
@@ -78,9 +82,33 @@ pub(super) struct Color {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum Depth {
+    /// Along the optical axis.
     Z(Map),
+    /// Along the ray of each pixel.
+    Ray(Map),
+    /// What a depth buffer holds, between the two `planes`.
+    Buffer(Map),
     Disparity(Map),
     Speed(Nothing),
+}
+
+impl Depth {
+    /// Returns the map that it is read from, if there is one.
+    pub const fn map(&self) -> Option<&Map> {
+        match self {
+            Self::Z(map) | Self::Ray(map) | Self::Buffer(map) | Self::Disparity(map) => Some(map),
+            Self::Speed(_) => None,
+        }
+    }
+
+    /// Returns whether it gives distances: disparities do with a baseline.
+    pub const fn is_distance(&self) -> bool {
+        match self {
+            Self::Z(_) | Self::Ray(_) | Self::Buffer(_) => true,
+            Self::Disparity(map) => map.baseline.is_some(),
+            Self::Speed(_) => false,
+        }
+    }
 }
 
 /// A kind without further keys.
@@ -88,19 +116,35 @@ pub(super) enum Depth {
 #[serde(deny_unknown_fields)]
 pub(super) struct Nothing {}
 
-/// A map of one number per pixel.
+/// A map of one number per pixel: `sign * scale * raw + offset`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
     pub file: String,
     #[serde(default = "one")]
     pub scale: f64,
+    #[serde(default = "one")]
+    pub sign: f64,
+    #[serde(default)]
+    pub offset: f64,
     pub channel: Option<String>,
     #[serde(default)]
     pub invalid: Invalid,
     pub far: Option<f64>,
     #[serde(default)]
     pub format: MapFormat,
+    pub rows: Option<Rows>,
+    /// Whether another size than the colour's is stretched to it.
+    #[serde(default)]
+    pub resize: bool,
+    /// A picture that is zero where the map is unknown.
+    pub mask: Option<String>,
+    /// The distances of a depth buffer's values 0 and 1.
+    pub planes: Option<[f64; 2]>,
+    /// Between the two cameras of a disparity, in the unit of the poses.
+    pub baseline: Option<f64>,
+    /// `fx fy cx cy`, where neither the motion nor `[update.camera]` gives them.
+    pub intrinsics: Option<[f64; 4]>,
 }
 
 /// How the numbers of a map are packed.
@@ -114,6 +158,18 @@ pub(super) enum MapFormat {
     SintelDisparity,
     /// 16-bit grey, `value / 256`, 0 = unknown.
     KittiDisparity,
+    /// 8-bit RGB, `R + 256 G + 65536 B`.
+    Rgb24,
+    /// 8-bit RGB, `65536 R + 256 G + B`.
+    Bgr24,
+}
+
+/// Which row a file stores first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Rows {
+    TopDown,
+    BottomUp,
 }
 
 /// Raw values that mean "unknown": one number or a list.
@@ -149,9 +205,11 @@ impl From<OneOrMany> for Invalid {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum Motion {
     Disparity(DisparityMotion),
-    Flow(Flow),
-    Planes(Passes),
-    BlenderVector(Passes),
+    Flow(Vectors),
+    Planes(Vectors),
+    BlenderVector(Vectors),
+    /// The motion buffer of `XR_FB_space_warp` and `XR_EXT_frame_synthesis`.
+    SpaceWarp(Vectors),
     Camera(Camera),
 }
 
@@ -160,8 +218,9 @@ impl Motion {
     pub const fn frames(&self) -> u32 {
         match self {
             Self::Disparity(motion) => motion.frames,
-            Self::Flow(flow) => flow.frames,
-            Self::Planes(passes) | Self::BlenderVector(passes) => passes.frames,
+            Self::Flow(vectors) | Self::Planes(vectors) | Self::BlenderVector(vectors) | Self::SpaceWarp(vectors) => {
+                vectors.frames
+            }
             Self::Camera(camera) => camera.frames,
         }
     }
@@ -180,67 +239,12 @@ pub(super) struct DisparityMotion {
     pub invalid: Invalid,
     #[serde(default)]
     pub format: MapFormat,
+    pub rows: Option<Rows>,
+    #[serde(default)]
+    pub resize: bool,
+    pub mask: Option<String>,
     #[serde(default = "one_frame")]
     pub frames: u32,
-}
-
-/// A displacement of each pixel.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Flow {
-    pub file: String,
-    #[serde(default = "one_frame")]
-    pub frames: u32,
-}
-
-/// Channels of an EXR.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Passes {
-    pub file: String,
-    /// What stands before the last dot of the channels' names.
-    pub channel: Option<String>,
-    #[serde(default = "one_frame")]
-    pub frames: u32,
-}
-
-/// A camera's path.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Camera {
-    /// `fx fy cx cy` in pixels; may be left out where the poses' file has them (`transforms`).
-    pub intrinsics: Option<[f64; 4]>,
-    pub poses: String,
-    pub format: PoseFormat,
-    pub axes: Option<Axes>,
-    pub pose: u32,
-    #[serde(default = "one_frame")]
-    pub frames: u32,
-    /// Where the centre of the first pixel lies in the intrinsics' coordinates: 0 or 0.5.
-    pub pixel_centre: Option<f64>,
-}
-
-/// Layout of a file of poses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum PoseFormat {
-    Log,
-    Tum,
-    Transforms,
-    Tartanair,
-    MatrixFiles,
-}
-
-/// How the camera's own axes lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Axes {
-    /// x right, y down, z forward.
-    Opencv,
-    /// x right, y up, z backward.
-    Opengl,
-    /// x forward, y right, z down.
-    Ned,
 }
 
 /// `acceleration = false`, `true`, or `{ kind = "next-flow", … }`.
@@ -250,20 +254,19 @@ pub(super) enum Acceleration {
     No,
     /// Whatever the motion gives, as without the key.
     AsMotion,
-    NextFlow(Flow),
+    NextFlow(Box<Vectors>),
 }
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum AccelerationTable {
-    NextFlow(Flow),
+    NextFlow(Vectors),
 }
 
 /// How an infinitely far cell moves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Background {
-    #[default]
     Still,
     /// As a point at infinity seen by the camera.
     Camera,
@@ -319,8 +322,8 @@ impl<'de> Deserialize<'de> for Acceleration {
                 Ok(if wanted { Acceleration::AsMotion } else { Acceleration::No })
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Acceleration, A::Error> {
-                let AccelerationTable::NextFlow(flow) = Deserialize::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(Acceleration::NextFlow(flow))
+                let AccelerationTable::NextFlow(vectors) = Deserialize::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(Acceleration::NextFlow(Box::new(vectors)))
             }
         }
         deserializer.deserialize_any(Either)
@@ -341,27 +344,18 @@ impl Manifest {
     /// Checks the values; errors are (what, hint).
     fn check(&self) -> Result<(), (String, &'static str)> {
         frames("frames", self.frames)?;
-        match &self.update.depth {
-            Depth::Z(map) | Depth::Disparity(map) => map.check("depth")?,
-            Depth::Speed(Nothing {}) => {}
-        }
+        self.update.depth.check("depth")?;
         self.update.motion.check("motion")?;
-        if matches!(
-            (&self.update.motion, &self.update.depth),
-            (Motion::Camera(_), Depth::Disparity(_) | Depth::Speed(_))
-        ) {
-            let hint = "give a depth map of kind \"z\", or another motion";
+        if matches!(self.update.motion, Motion::Camera(_)) && !self.update.depth.is_distance() {
+            let hint = "give a depth map of kind \"z\", \"ray\" or \"buffer\", a baseline of the disparities, or another motion";
             return Err(("moves a camera past cells whose distance is unknown".into(), hint));
         }
-        if self.update.background == Background::Camera
-            && self.update.camera.is_none()
-            && !matches!(self.update.motion, Motion::Camera(_))
-        {
+        if self.update.background == Some(Background::Camera) && self.update.viewer().is_none() {
             let hint = "add an [update.camera] with intrinsics and poses, or choose still or empty";
             return Err(("asks for background = \"camera\" and gives no camera".into(), hint));
         }
-        if let Some(Acceleration::NextFlow(flow)) = &self.update.acceleration {
-            frames("acceleration.frames", flow.frames)?;
+        if let Some(Acceleration::NextFlow(vectors)) = &self.update.acceleration {
+            vectors.check("acceleration")?;
         }
         if let Some(camera) = &self.update.camera {
             camera.check("camera")?;
@@ -383,9 +377,56 @@ impl Manifest {
     }
 }
 
+impl Update {
+    /// Returns the camera whose poses are given, if there is one.
+    pub const fn viewer(&self) -> Option<&Camera> {
+        match (&self.camera, &self.motion) {
+            (Some(camera), _) | (None, Motion::Camera(camera)) => Some(camera),
+            _ => None,
+        }
+    }
+
+    /// Returns how infinitely far cells move.
+    pub fn background(&self) -> Background {
+        let usual = if self.viewer().is_some() { Background::Camera } else { Background::Still };
+        self.background.unwrap_or(usual)
+    }
+}
+
+impl Depth {
+    fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
+        let Some(map) = self.map() else { return Ok(()) };
+        map.check(table)?;
+        map.intrinsics.map_or(Ok(()), |intrinsics| camera::check_intrinsics(table, intrinsics))?;
+        match (self, map.planes) {
+            (Self::Buffer(_), Some([near, far])) => {
+                if near.is_nan() || far.is_nan() || near <= 0.0 || far <= 0.0 || near == far {
+                    let hint = "write the distances of the values 0 and 1, for example [0.1, 1000.0] or [inf, 0.1]";
+                    return Err((format!("{table}.planes are [{near}, {far}]"), hint));
+                }
+            }
+            (Self::Buffer(_), None) => {
+                let hint = "write the distances of the values 0 and 1, for example planes = [0.1, 1000.0]";
+                return Err((format!("{table} of kind \"buffer\" has no planes"), hint));
+            }
+            (_, Some(_)) => return Err((format!("{table}.planes are for kind \"buffer\""), "remove that key")),
+            (_, None) => {}
+        }
+        match (self, map.baseline) {
+            (Self::Disparity(_), Some(baseline)) => positive(&format!("{table}.baseline"), baseline),
+            (_, Some(_)) => Err((format!("{table}.baseline is for kind \"disparity\""), "remove that key")),
+            (_, None) => Ok(()),
+        }
+    }
+}
+
 impl Map {
     fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
         positive(&format!("{table}.scale"), self.scale)?;
+        one_or_minus_one(&format!("{table}.sign"), self.sign)?;
+        if !self.offset.is_finite() {
+            return Err((format!("{table}.offset is {}", self.offset), "write a finite number"));
+        }
         if self.far.is_some_and(f64::is_nan) {
             return Err((format!("{table}.far is not a number"), "write a raw value, or leave the key out"));
         }
@@ -399,34 +440,13 @@ impl Motion {
         match self {
             Self::Disparity(motion) => {
                 positive(&format!("{table}.scale"), motion.scale)?;
-                if motion.sign.abs() != 1.0 {
-                    let what = format!("{table}.sign is {}", motion.sign);
-                    return Err((what, "write -1 or 1 and put the size into scale"));
-                }
+                one_or_minus_one(&format!("{table}.sign"), motion.sign)?;
                 frames(&key, motion.frames)
             }
-            Self::Flow(flow) => frames(&key, flow.frames),
-            Self::Planes(passes) | Self::BlenderVector(passes) => frames(&key, passes.frames),
+            Self::Flow(vectors) | Self::Planes(vectors) => vectors.check(table),
+            Self::BlenderVector(vectors) => vectors.check_blender(table),
+            Self::SpaceWarp(vectors) => vectors.check_space_warp(table),
             Self::Camera(camera) => camera.check(table),
-        }
-    }
-}
-
-impl Camera {
-    fn check(&self, table: &str) -> Result<(), (String, &'static str)> {
-        frames(&format!("{table}.frames"), self.frames)?;
-        if let Some([fx, fy, cx, cy]) = self.intrinsics {
-            positive(&format!("the focal length in {table}.intrinsics"), fx)?;
-            positive(&format!("the focal length in {table}.intrinsics"), fy)?;
-            if !(cx.is_finite() && cy.is_finite()) {
-                return Err((format!("{table}.intrinsics are not finite"), "write [fx, fy, cx, cy] in pixels"));
-            }
-        }
-        match self.pixel_centre {
-            Some(centre) if centre != 0.0 && centre != 0.5 => {
-                Err((format!("{table}.pixel_centre is {centre}"), "write 0.0 or 0.5"))
-            }
-            _ => Ok(()),
         }
     }
 }
@@ -443,6 +463,13 @@ fn positive(key: &str, value: f64) -> Result<(), (String, &'static str)> {
         return Ok(());
     }
     Err((format!("{key} is {value}"), "write a finite number above zero"))
+}
+
+fn one_or_minus_one(key: &str, value: f64) -> Result<(), (String, &'static str)> {
+    if value.abs() == 1.0 {
+        return Ok(());
+    }
+    Err((format!("{key} is {value}"), "write -1 or 1 and put the size into scale"))
 }
 
 /// Returns a parser's error as a sentence with the line and the hint.

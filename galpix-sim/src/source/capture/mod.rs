@@ -10,6 +10,7 @@
 
 mod acceleration;
 mod camera;
+mod coarse;
 mod colour;
 mod depth;
 mod dpt;
@@ -21,7 +22,9 @@ mod manifest;
 mod mixed;
 mod motion;
 mod npy;
+mod orientation;
 mod pfm;
+mod plausible;
 mod png_raster;
 mod poses;
 mod raster;
@@ -29,6 +32,7 @@ mod samples;
 mod source;
 #[cfg(test)]
 mod tests;
+mod vectors;
 
 use std::path::Path;
 
@@ -39,9 +43,12 @@ pub use error::CaptureError;
 
 use crate::picture::Picture;
 use crate::update::{Truth, Update};
-use camera::Distance;
+use camera::{Distance, Track};
+use coarse::Steps;
 use manifest::Manifest;
+use raster::Canvas;
 use source::{Size, Source};
+use vectors::Moved;
 
 /// How a capture is imported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,7 +58,7 @@ pub struct ImportOptions {
 }
 
 /// What was known of the cells of an update. Nothing is guessed silently.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Census {
     /// Cells with depth and motion.
     pub known: usize,
@@ -64,8 +71,15 @@ pub struct Census {
     /// Cells behind whose sample another one is known, if that was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hidden: Option<usize>,
+    /// Cells under an overlay that is drawn into the picture, too: they start empty, and are among `unknown_motion`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub under_overlay: Option<usize>,
     /// Cells whose requested acceleration is unknown: they move with their velocity.
     pub unknown_acceleration: usize,
+    /// The step in which the motion comes, in pixels per display frame, where it comes in steps: a velocity is off by
+    /// half of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion_step_px: Option<f64>,
     /// Remarks, one sentence each.
     pub notes: Vec<String>,
 }
@@ -103,7 +117,7 @@ struct Opened<'c> {
 ///
 /// *Errors:* a file that cannot be read, is damaged, or is no such picture.
 pub fn picture(file: &Path) -> Result<Picture, CaptureError> {
-    colour::read(&Source::open(file)?, None, None)
+    colour::read(&Source::open(file)?, None, None, &mut Vec::new())
 }
 
 /// Reads a capture from its manifest, or from the folder that holds a `capture.toml`.
@@ -115,44 +129,99 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     let folder = path.parent().unwrap_or(Path::new("."));
     let update = &manifest.update;
     let channel = update.color.channel.as_deref().or(update.channel.as_deref());
-    let picture = colour::read(&Source::open(&folder.join(&update.color.file))?, channel, None)?;
+    let mut census = Census::default();
+    let file = Source::open(&folder.join(&update.color.file))?;
+    let mut picture = colour::read(&file, channel, None, &mut census.notes)?;
     let size = Size { width: picture.width, height: picture.height };
 
-    let mut census = Census::default();
-    let distances = depth::read(&update.depth, folder, size)?;
+    let canvas = &mut Canvas { size, notes: &mut census.notes };
+    let distances = depth::read(&update.depth, update, folder, canvas)?;
     let opened = Opened { manifest: &manifest, folder, size, distances: &distances };
-    let mut motion = motion::read(opened, &mut census)?;
-    if let Some(manifest::Acceleration::NextFlow(flow)) = &update.acceleration {
-        acceleration::chain(&mut motion, opened, flow, &mut census)?;
-    }
-    if matches!(update.acceleration, Some(manifest::Acceleration::No)) {
-        acceleration::leave_out(&mut motion);
-    }
-    acceleration::apply(options.acceleration, &mut motion, &distances, size, manifest.frames);
-    let unit = samples::Unit::of(&update.depth, &distances, &motion);
-    let overlay = match &update.overlay {
-        Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census)?),
+    let mut motion = moved(opened, options, &mut census)?;
+    let unit = samples::Unit::of(&update.depth, &distances, &motion, &mut census.notes);
+    let pinned = match &update.overlay {
+        Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census.notes)?),
         None => None,
     };
+    if let Some(touched) = pinned.as_ref().and_then(|pinned| pinned.drawn_into(&picture)) {
+        colour::cover(&mut picture, touched);
+        let covered = motion.iter_mut().zip(touched).filter(|(track, touched)| **touched && track.is_some());
+        let count = covered.map(|(track, _)| *track = None).count();
+        census.under_overlay = Some(count);
+        census.notes.push(format!("the overlay is drawn into the colour, too: {count} cells under it start empty"));
+    }
     let hidden = hidden::read(opened, unit, options, &mut census)?;
     let mut update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
-    update.overlay = overlay;
+    update.overlay = pinned.map(|pinned| pinned.overlay);
+    let truths = truths(&manifest, folder, size, &mut census)?;
+    plausible::check(opened, &update, &truths, &mut census)
+        .map_err(|(what, hint)| CaptureError::new(&path, what, hint))?;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
-    let truths = truths(&manifest, folder, size)?;
     Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, hidden, truths, census })
 }
 
-fn truths(manifest: &Manifest, folder: &Path, size: Size) -> Result<Vec<Truth>, CaptureError> {
-    let truth = |truth: &manifest::Truth| {
+/// Returns the motion of each cell with its acceleration, as the manifest and the user want it.
+fn moved(opened: Opened<'_>, options: &ImportOptions, census: &mut Census) -> Result<Vec<Option<Track>>, CaptureError> {
+    let Opened { manifest, distances, size, .. } = opened;
+    let update = &manifest.update;
+    let Moved { tracks: mut motion, steps } = motion::read(opened, census)?;
+    let frames = f64::from(update.motion.frames());
+    let mut left_out = 0;
+    match &update.acceleration {
+        Some(manifest::Acceleration::NextFlow(next)) => {
+            let second = acceleration::chain(&mut motion, opened, next, census)?;
+            let span = frames + f64::from(next.frames);
+            let feigned = Steps([0, 1].map(|i| (steps.0[i] + second.0[i]) / span));
+            left_out = acceleration::leave_out_feigned(&mut motion, feigned, frames);
+        }
+        Some(manifest::Acceleration::No) => acceleration::leave_out(&mut motion),
+        Some(manifest::Acceleration::AsMotion) | None => {
+            if matches!(update.motion, manifest::Motion::BlenderVector(_)) {
+                let feigned = Steps(steps.0.map(|step| step / frames));
+                left_out = acceleration::leave_out_feigned(&mut motion, feigned, 0.0);
+            }
+        }
+    }
+    let off = steps.largest() / 2.0 * f64::from(manifest.frames);
+    if off > 0.5 {
+        let [x, y] = steps.0;
+        census.motion_step_px = Some(steps.largest());
+        census.notes.push(format!(
+            "the motion comes in steps of {x:.4} px in x and {y:.4} px in y a frame: after {} frames a position is off \
+             by up to {off:.2} px because of it",
+            manifest.frames
+        ));
+        if left_out > 0 {
+            census.notes.push(format!(
+                "{left_out} cells have an acceleration that such steps can feign: they move with their velocity"
+            ));
+        }
+    }
+    acceleration::apply(options.acceleration, &mut motion, distances, size, manifest.frames);
+    Ok(motion)
+}
+
+fn truths(manifest: &Manifest, folder: &Path, size: Size, census: &mut Census) -> Result<Vec<Truth>, CaptureError> {
+    /// Most remarks about truths: each of them would have the same.
+    const MOST_NOTES: usize = 2;
+    let mut notes = Vec::new();
+    let mut truth = |truth: &manifest::Truth| {
         let channel = truth.color.channel.as_deref().or(truth.channel.as_deref());
-        let picture = colour::read(&Source::open(&folder.join(&truth.color.file))?, channel, Some(size))?;
+        let picture = colour::read(&Source::open(&folder.join(&truth.color.file))?, channel, Some(size), &mut notes)?;
         let mask = match &truth.mask {
             Some(file) => Some(colour::mask(&Source::open(&folder.join(file))?, size)?),
             None => None,
         };
         Ok(Truth { frame: truth.frame, picture, mask })
     };
-    manifest.truth.iter().map(truth).collect()
+    let truths = manifest.truth.iter().map(&mut truth).collect();
+    notes.retain(|note| !census.notes.contains(note));
+    let more = notes.len().saturating_sub(MOST_NOTES);
+    census.notes.extend(notes.into_iter().take(MOST_NOTES));
+    if more > 0 {
+        census.notes.push(format!("{more} more remarks of this kind about pictures of the truth"));
+    }
+    truths
 }
 
 fn folder_name(folder: &Path) -> String {

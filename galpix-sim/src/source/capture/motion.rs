@@ -3,139 +3,116 @@
 use std::path::Path;
 
 use super::camera::{self, Distance, Track};
+use super::coarse::{Field, Steps};
 use super::error::CaptureError;
-use super::exr_planes::{Planes, under};
-use super::manifest::{Background, Camera, Depth, DisparityMotion, Flow, Motion, Passes};
+use super::manifest::{Background, Camera, DisparityMotion, Motion};
+use super::raster::{self, Canvas, Layout};
 use super::source::{Size, Source};
-use super::{Census, Opened, mixed, poses, raster};
+use super::vectors::{self, Moved};
+use super::{Census, Opened, mixed, poses};
 
 /// The motion of each cell, per display frame; `None` where it is unknown or the cell starts empty.
-pub(super) fn read(
-    Opened { manifest, folder, size, distances }: Opened<'_>,
-    census: &mut Census,
-) -> Result<Vec<Option<Track>>, CaptureError> {
+pub(super) fn read(opened: Opened<'_>, census: &mut Census) -> Result<Moved, CaptureError> {
+    let Opened { manifest, folder, size, distances } = opened;
     let update = &manifest.update;
-    let mut tracks = match &update.motion {
-        Motion::Disparity(motion) => disparity(motion, folder, size)?,
-        Motion::Flow(flow) => displacements(flow, folder, size)?,
-        Motion::Planes(passes) => planes(passes, folder, size, depth_scale(&update.depth))?,
+    let mut canvas = Canvas { size, notes: &mut census.notes };
+    let mut moved = match &update.motion {
+        Motion::Disparity(motion) => disparity(motion, folder, &mut canvas)?,
+        Motion::Flow(flow) => vectors::flow(flow, folder, &mut canvas)?,
+        Motion::Planes(planes) => vectors::planes(planes, opened, &mut canvas)?,
+        Motion::SpaceWarp(buffer) => vectors::space_warp(buffer, opened, &mut canvas)?,
         Motion::BlenderVector(passes) => {
-            let mut tracks = blender_vector(passes, folder, size)?;
-            let replaced = distances.as_ref().map_or(0, |distances| mixed::unmix(&mut tracks, distances, size));
+            let mut moved = vectors::blender(passes, folder, &mut canvas)?;
+            let replaced = distances.as_ref().map_or(0, |distances| mixed::unmix(&mut moved.tracks, distances, size));
             if replaced > 0 {
                 census.notes.push(format!("{replaced} vectors at the borders of surfaces were mixed and are replaced"));
             }
-            tracks
+            moved
         }
-        Motion::Camera(camera) => from_camera(camera, folder, size, distances, census)?,
+        Motion::Camera(camera) => Moved { tracks: from_camera(camera, opened, census)?, steps: Steps::default() },
     };
-    let background = match update.background {
+    let background = match update.background() {
         Background::Given => None,
         Background::Empty => Some(vec![None; size.cells()]),
         Background::Still => Some(vec![Some(Track::default()); size.cells()]),
         Background::Camera => match (&update.motion, &update.camera) {
-            (_, Some(camera)) | (Motion::Camera(camera), None) => {
-                Some(from_camera(camera, folder, size, distances, census)?)
-            }
+            // The camera has moved far cells already.
+            (Motion::Camera(_), None) => None,
+            (_, Some(camera)) => Some(from_camera(camera, opened, census)?),
             // The manifest was refused.
             _ => None,
         },
     };
     if let (Some(background), Some(distances)) = (background, distances) {
-        for ((track, far), distance) in tracks.iter_mut().zip(background).zip(distances) {
+        for ((track, far), distance) in moved.tracks.iter_mut().zip(background).zip(distances) {
             if *distance == Distance::Far {
                 *track = far;
             }
         }
     }
-    for track in &mut tracks {
+    for track in &mut moved.tracks {
         *track = track.filter(Track::is_usable);
     }
-    Ok(tracks)
+    Ok(moved)
 }
 
-/// Returns the unit in which velocities of the depth are given: the raw unit of the depth.
-fn depth_scale(depth: &Depth) -> f64 {
-    match depth {
-        Depth::Z(map) | Depth::Disparity(map) => map.scale,
-        Depth::Speed(_) => 0.0,
-    }
-}
-
-fn steady(velocity: [f64; 2]) -> Track {
-    Track { velocity: [velocity[0], velocity[1], 0.0], ..Track::default() }
-}
-
-fn disparity(motion: &DisparityMotion, folder: &Path, size: Size) -> Result<Vec<Option<Track>>, CaptureError> {
+fn disparity(motion: &DisparityMotion, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
     let source = Source::open(&folder.join(&motion.file))?;
-    let numbers = raster::numbers(&source, motion.channel.as_deref(), motion.format, size)?;
-    let along = motion.sign * motion.scale / f64::from(motion.frames);
-    let track = |raw: f64| (!motion.invalid.holds(raw)).then(|| steady([raw * along, 0.0]));
-    Ok(numbers.into_iter().map(track).collect())
-}
-
-fn displacements(flow: &Flow, folder: &Path, size: Size) -> Result<Vec<Option<Track>>, CaptureError> {
-    let flows = raster::flow(&Source::open(&folder.join(&flow.file))?, size)?;
-    let frames = f64::from(flow.frames);
-    Ok(flows.into_iter().map(|flow| Some(steady(flow?.map(|component| component / frames)))).collect())
-}
-
-/// Returns `VX VY` and, where present, `VZ AX AY AZ`, each per step of `frames` display frames.
-fn planes(passes: &Passes, folder: &Path, size: Size, depth_scale: f64) -> Result<Vec<Option<Track>>, CaptureError> {
-    let source = Source::open(&folder.join(&passes.file))?;
-    let planes = Planes::read(&source)?;
-    let prefix = passes.channel.as_deref().unwrap_or("");
-    let band = |name: &str, wanted: bool| {
-        let name = under(prefix, name);
-        if wanted || planes.has(&name) { planes.band(&name, size) } else { Ok(vec![0.0; size.cells()]) }
+    let layout = Layout {
+        channel: motion.channel.as_deref(),
+        format: motion.format,
+        rows: motion.rows,
+        resize: motion.resize,
+        ..Layout::default()
     };
-    let velocity = [band("VX", true)?, band("VY", true)?, band("VZ", false)?];
-    let acceleration = [band("AX", false)?, band("AY", false)?, band("AZ", false)?];
-    let frames = f64::from(passes.frames);
-    let unit = [1.0, 1.0, depth_scale];
-    let track = |cell: usize| {
-        let mut track = Track::default();
-        for component in 0..3 {
-            track.velocity[component] = velocity[component][cell] * unit[component] / frames;
-            track.acceleration[component] = acceleration[component][cell] * unit[component] / (frames * frames);
+    let raster::Fitted { mut bands, stretch } = raster::numbers(&source, &layout, canvas)?;
+    let numbers = bands.swap_remove(0);
+    let mask = match &motion.mask {
+        Some(file) => {
+            let layout = Layout { channel: None, format: Default::default(), ..layout };
+            Some(raster::mask(&Source::open(&folder.join(file))?, &layout, canvas)?)
         }
-        Some(track)
+        None => None,
     };
-    Ok((0..size.cells()).map(track).collect())
-}
-
-/// Blender's vector pass: `X`, `Y` to the previous frame and `Z`, `W` to the next, y up; both give the acceleration.
-///
-/// With y down the displacement to the next frame is `(-Z, W)` and that from the previous one `(-X, Y)`.
-fn blender_vector(passes: &Passes, folder: &Path, size: Size) -> Result<Vec<Option<Track>>, CaptureError> {
-    let source = Source::open(&folder.join(&passes.file))?;
-    let planes = Planes::read(&source)?;
-    let prefix = passes.channel.as_deref().unwrap_or("Vector");
-    let band = |name: &str| planes.band(&under(prefix, name), size);
-    let (x, y, z, w) = (band("X")?, band("Y")?, band("Z")?, band("W")?);
-    let frames = f64::from(passes.frames);
-    let track = |cell: usize| {
-        let (x, y, z, w) = (x[cell], y[cell], z[cell], w[cell]);
-        let velocity = [(-z - x) / 2.0, (w + y) / 2.0, 0.0].map(|v| v / frames);
-        let acceleration = [x - z, w - y, 0.0].map(|a| a / (frames * frames));
-        Some(Track { velocity, acceleration })
+    let along = motion.sign * motion.scale * stretch[0] / f64::from(motion.frames);
+    let known = |(cell, &raw): (usize, &f64)| {
+        !motion.invalid.holds(raw) && mask.as_ref().is_none_or(|mask: &Vec<bool>| mask[cell])
     };
-    Ok((0..size.cells()).map(track).collect())
+    let track = |at: (usize, &f64)| {
+        let velocity = [at.1 * along, 0.0, 0.0];
+        known(at).then_some(Track { velocity, ..Track::default() })
+    };
+    let raw = numbers.iter().enumerate().map(|at| if known(at) { *at.1 } else { f64::NAN }).collect();
+    let apart = stretch.map(|by| by.ceil() as usize);
+    let none = Field { numbers: Vec::new(), width: 1, apart };
+    let Steps([step, _]) = Steps::found([Field { numbers: raw, width: canvas.size.width, apart }, none]);
+    let tracks = numbers.iter().enumerate().map(track).collect();
+    Ok(Moved { tracks, steps: Steps([step * along.abs(), 0.0]) })
 }
 
 fn from_camera(
     camera: &Camera,
-    folder: &Path,
-    size: Size,
-    distances: &Option<Vec<Distance>>,
+    Opened { folder, size, distances, .. }: Opened<'_>,
     census: &mut Census,
 ) -> Result<Vec<Option<Track>>, CaptureError> {
-    let path = poses::read(camera, folder)?;
-    // The background may come from the same path.
-    census.notes.extend(path.note.clone().filter(|note| !census.notes.contains(note)));
+    let mut path = poses::read(camera, folder, size)?;
     let Some(distances) = distances else {
         let hint = "give a depth map of kind \"z\", or another motion";
         return Err(CaptureError::new(&folder.join(&camera.poses), "moves a camera past cells of unknown depth", hint));
     };
-    Ok(camera::tracks(&path, camera.frames, size, distances))
+    if let Some(note) = camera::leave_out_a_cut(&mut path, size, distances) {
+        path.notes.push(note);
+    }
+    // The background may come from the same path.
+    for note in &path.notes {
+        if !census.notes.contains(note) {
+            census.notes.push(note.clone());
+        }
+    }
+    Ok(camera::tracks(&path, path.frames, size, distances))
+}
+
+/// Returns the size of the speed beyond which the default budget clamps, in pixels per display frame.
+pub(super) fn fastest(size: Size) -> f64 {
+    size.width.max(size.height).next_power_of_two() as f64 / 2.0
 }

@@ -9,6 +9,13 @@ use crate::update::{DepthKind, Known, Margin, Sample, Update};
 /// The nearest distance that can be stored is this part of the nearest that is seen: room to approach.
 const ROOM: f64 = 0.5;
 
+/// At most this part of the cells can be outliers, which lie this many times nearer than all the others.
+const RARE: f64 = 0.005;
+const OUTLIER: f64 = 8.0;
+
+/// Of fewer cells none is an outlier.
+const FEW: usize = 256;
+
 /// How the depths of an update are normalised: their kind, and the distance or disparity that the nearest depth stands
 /// for.
 #[derive(Clone, Copy, Debug)]
@@ -19,15 +26,56 @@ pub(super) struct Unit {
 }
 
 impl Unit {
-    /// Returns that of an update.
-    pub fn of(depth: &Depth, distances: &Option<Vec<Distance>>, motion: &[Option<Track>]) -> Self {
-        let (kind, nearest) = match (depth, distances) {
-            (Depth::Z(_), Some(distances)) => (DepthKind::Z, ROOM * extreme(distances, f64::INFINITY, f64::min)),
-            (Depth::Disparity(_), Some(distances)) => (DepthKind::Disparity, extreme(distances, 0.0, f64::max) / ROOM),
-            _ => (DepthKind::Speed, motion.iter().flatten().map(speed).fold(0.0, f64::max) / ROOM),
+    /// Returns that of an update, whose range the nearest cell decides unless it is an outlier; the note then says how
+    /// many are.
+    pub fn of(
+        depth: &Depth,
+        distances: &Option<Vec<Distance>>,
+        motion: &[Option<Track>],
+        notes: &mut Vec<String>,
+    ) -> Self {
+        let known = |distances: &[Distance]| -> Vec<f64> {
+            let at = |distance: &Distance| if let Distance::At(value) = distance { Some(*value) } else { None };
+            distances.iter().filter_map(at).collect()
         };
+        let (kind, nearness) = match distances {
+            Some(distances) if depth.is_distance() => {
+                (DepthKind::Z, known(distances).into_iter().map(f64::recip).collect())
+            }
+            Some(distances) => (DepthKind::Disparity, known(distances)),
+            None => (DepthKind::Speed, motion.iter().flatten().map(speed).collect()),
+        };
+        let (nearest, beyond) = largest(nearness);
+        if beyond > 0 {
+            let what = match kind {
+                DepthKind::Speed => "faster",
+                DepthKind::Z | DepthKind::Disparity => "nearer",
+            };
+            notes.push(format!(
+                "of all cells {beyond} are more than {OUTLIER} times {what} than the others: they count as nearest, and \
+                 do not decide the depth range"
+            ));
+        }
+        let nearest = if kind == DepthKind::Z { ROOM / nearest } else { nearest / ROOM };
         Self { kind, nearest }
     }
+}
+
+/// Returns the largest of some numbers, which decides a range, without outliers, and how many of these there are.
+fn largest(mut numbers: Vec<f64>) -> (f64, usize) {
+    let all = numbers.iter().copied().fold(0.0, f64::max);
+    if numbers.len() < FEW {
+        return (all, 0);
+    }
+    let place = numbers.len() - 1 - (numbers.len() as f64 * RARE).ceil() as usize;
+    let (_, usual, rare) = numbers.select_nth_unstable_by(place, f64::total_cmp);
+    let most = *usual * OUTLIER;
+    if *usual > 0.0 && all > most {
+        let beyond = rare.iter().filter(|&&number| number > most).count();
+        let rest = rare.iter().copied().filter(|&number| number <= most).fold(*usual, f64::max);
+        return (rest, beyond);
+    }
+    (all, 0)
 }
 
 /// Makes the update. All inputs have the picture's size.
@@ -78,14 +126,6 @@ pub(super) fn assemble(
     }
 }
 
-fn extreme(distances: &[Distance], start: f64, pick: fn(f64, f64) -> f64) -> f64 {
-    let known = distances.iter().filter_map(|distance| match distance {
-        Distance::At(distance) => Some(*distance),
-        _ => None,
-    });
-    known.fold(start, pick)
-}
-
 fn speed(track: &Track) -> f64 {
     track.velocity[0].hypot(track.velocity[1])
 }
@@ -104,10 +144,10 @@ fn sample(colour: [u8; 3], kind: DepthKind, distance: Option<Distance>, unit: f6
         (DepthKind::Z, Some(Distance::At(z))) => {
             // d = 1 - near / z, and its derivatives by the chain rule.
             let [first, second] = [unit / (z * z), -2.0 * unit / (z * z * z)];
-            [1.0 - unit / z, first * vz, first * az + second * vz * vz]
+            if unit > z { still(0.0) } else { [1.0 - unit / z, first * vz, first * az + second * vz * vz] }
         }
-        (DepthKind::Disparity, Some(Distance::At(disparity))) => still(1.0 - disparity / unit),
-        (DepthKind::Speed, _) if unit > 0.0 => still(1.0 - speed(track) / unit),
+        (DepthKind::Disparity, Some(Distance::At(disparity))) => still((1.0 - disparity / unit).max(0.0)),
+        (DepthKind::Speed, _) if unit > 0.0 => still((1.0 - speed(track) / unit).max(0.0)),
         _ => still(1.0),
     };
     Sample {

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::error::CaptureError;
+use super::manifest::Rows;
 
 /// Most columns or rows of a picture.
 const MAX_SIDE: u64 = 16_384;
@@ -35,11 +36,22 @@ impl Size {
     }
 }
 
-/// Raw numbers as a file stores them: one or more bands of as many values as the picture has cells, rows from top to
-/// bottom.
+/// Raw numbers as a file stores them: one or more bands, each row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Bands {
+    pub size: Size,
     pub bands: Vec<Vec<f64>>,
+    /// Which row comes first.
+    pub rows: Rows,
+    /// Remarks on what the file says of itself.
+    pub notes: Vec<String>,
+}
+
+impl Bands {
+    /// Creates bands whose rows run from top to bottom, without remarks.
+    pub const fn new(size: Size, bands: Vec<Vec<f64>>) -> Self {
+        Self { size, bands, rows: Rows::TopDown, notes: Vec::new() }
+    }
 }
 
 /// The file formats of the importers, recognised by their first bytes.
@@ -49,6 +61,7 @@ pub(super) enum Format {
     Jpeg,
     Exr,
     Npy,
+    Npz,
     Pfm,
     /// Middlebury `.flo` and Sintel `.dpt` share their tag.
     Pieh,
@@ -93,26 +106,33 @@ impl Source {
         self.fault(format!("is truncated or damaged ({why})"), COPY_AGAIN)
     }
 
-    /// Returns the file as text.
+    /// Returns the file as text, without a byte order mark.
     pub fn text(&self) -> Result<&str, CaptureError> {
-        std::str::from_utf8(&self.bytes)
-            .map_err(|e| self.fault(format!("is not a text file ({e})"), "save it as UTF-8 text"))
+        if self.bytes.starts_with(b"\xff\xfe") || self.bytes.starts_with(b"\xfe\xff") {
+            return Err(self.fault(
+                "is not a text file in UTF-8 (it begins with a byte order mark of UTF-16)",
+                "save it as UTF-8",
+            ));
+        }
+        let text = self.bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&self.bytes);
+        std::str::from_utf8(text).map_err(|e| self.fault(format!("is not a text file ({e})"), "save it as UTF-8 text"))
     }
 
     /// Returns the format, from the first bytes; the name's ending does not matter.
     pub fn format(&self) -> Result<Format, CaptureError> {
-        const TAGS: [(&[u8], Format); 7] = [
+        const TAGS: [(&[u8], Format); 8] = [
             (b"\x89PNG\r\n\x1a\n", Format::Png),
             (b"\xff\xd8\xff", Format::Jpeg),
             (b"\x76\x2f\x31\x01", Format::Exr),
             (b"\x93NUMPY", Format::Npy),
+            (b"PK\x03\x04", Format::Npz),
             (b"Pf", Format::Pfm),
             (b"PF", Format::Pfm),
             (b"PIEH", Format::Pieh),
         ];
         TAGS.iter().find(|(tag, _)| self.bytes.starts_with(tag)).map(|&(_, format)| format).ok_or_else(|| {
             self.fault(
-                "does not begin like a PNG, JPEG, EXR, NumPy, PFM, .flo or .dpt file",
+                "does not begin like a PNG, JPEG, EXR, .npy, .npz, PFM, .flo or .dpt file",
                 "convert it to one of these, or copy it again if it was cut off",
             )
         })

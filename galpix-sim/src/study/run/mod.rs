@@ -73,6 +73,9 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
     for frame in &mut reports {
         frame.certified_px = certificate.after(frame.frame);
     }
+    // A velocity is off by up to half of its step, in each frame.
+    let by_steps =
+        source.census().and_then(|census| census.motion_step_px).unwrap_or(0.0) / 2.0 * f64::from(demand.prop);
     Ok(RunReport {
         source: source.name().to_owned(),
         width: update.display_width(),
@@ -87,7 +90,7 @@ pub fn job(job: &Job<'_>, mut visit: impl FnMut(&Shown<'_>)) -> Result<RunReport
         loaded: ran.loaded,
         hidden: (request.strategy != Strategy::ONE).then(|| HiddenReport::of(request.strategy, &carried, &ran)),
         census: source.census().cloned(),
-        displayed_px: certificate.total_px + shown_off_px(request.scan_out, scale.position_frac),
+        displayed_px: certificate.total_px + shown_off_px(request.scan_out, scale.position_frac) + by_steps,
         certificate,
         frames: reports,
     })

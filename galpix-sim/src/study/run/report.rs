@@ -206,8 +206,8 @@ pub struct RunReport {
     pub census: Option<Census>,
     /// The certificate in x and y.
     pub certificate: Certificate,
-    /// The certificate's total and what scan-out adds: how far in x and in y a galpixel is shown at most from where it
-    /// should be, in pixels.
+    /// The certificate's total, what scan-out adds, and what the steps of a coarse motion add: how far in x and in y a
+    /// galpixel is shown at most from where it should be, in pixels.
     pub displayed_px: f64,
     /// The frames from 1 on.
     pub frames: Vec<FrameReport>,

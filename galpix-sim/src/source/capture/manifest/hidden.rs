@@ -58,7 +58,7 @@ impl Hidden {
         let update = &manifest.update;
         match self {
             Self::Layer(layer) => {
-                check_depth("hidden.depth", &layer.depth)?;
+                layer.depth.check("hidden.depth")?;
                 if std::mem::discriminant(&layer.depth) != std::mem::discriminant(&update.depth) {
                     return Err((
                         "has a hidden.depth of another kind than update.depth".into(),
@@ -93,12 +93,5 @@ impl Hidden {
                 views.views.iter().try_for_each(|view| view.depth.check("hidden.views.depth"))
             }
         }
-    }
-}
-
-fn check_depth(key: &str, depth: &Depth) -> Result<(), (String, &'static str)> {
-    match depth {
-        Depth::Z(map) | Depth::Disparity(map) => map.check(key),
-        Depth::Speed(_) => Ok(()),
     }
 }

@@ -112,7 +112,8 @@ fn a_camera_that_slides_moves_the_picture_the_other_way() {
             let t = pose as f64 - 2.0;
             near(&known(&capture, 1, 1).velocity, &[-1.0 - 0.2 * t, -2.0 + 0.3 * t, 0.0], 1e-9);
             near(&known(&capture, 1, 1).acceleration, &[-0.2, 0.3, 0.0], 1e-9);
-            assert_eq!(capture.census.notes.len(), 1, "{format} says nothing of the missing pose");
+            let is_noted = capture.census.notes.iter().any(|note| note.contains("is missing"));
+            assert!(is_noted, "{format} says nothing of the missing pose");
         }
         // With two poses in all there is no acceleration.
         let capture = load(format, &path[2..4], 0, "").unwrap();

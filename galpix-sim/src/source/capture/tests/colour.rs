@@ -2,9 +2,9 @@
 
 use png::ColorType;
 
-use super::super::colour::{mask, read};
+use super::super::colour::mask;
 use super::encode::{self, Precision};
-use super::folder::{Folder, H, SIZE, W, cells, check_refusal, colour, manifest, source};
+use super::folder::{Folder, H, SIZE, W, cells, check_refusal, colour, manifest, picture as read, source};
 use crate::picture::Picture;
 
 fn picture(bytes: Vec<u8>, channel: Option<&str>) -> Picture {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::camera::Track;
 use super::super::exr_planes::Planes;
+use super::super::raster::Canvas;
 use super::super::source::{Size, Source};
 use super::super::{Capture, ImportOptions, load};
 use super::folder::near;
@@ -92,7 +93,10 @@ fn the_capture_of_this_repository_loads() {
 fn pass(file: &Path, size: Size) -> Vec<Track> {
     let source = Source::open(file).unwrap();
     let planes = Planes::read(&source).unwrap();
-    let [x, y, z, w] = ["X", "Y", "Z", "W"].map(|n| planes.band(&format!("ViewLayer.Vector.{n}"), size).unwrap());
+    let [x, y, z, w] = ["X", "Y", "Z", "W"].map(|n| {
+        let canvas = &mut Canvas { size, notes: &mut Vec::new() };
+        planes.bands(&[format!("ViewLayer.Vector.{n}")], canvas).unwrap().bands.swap_remove(0)
+    });
     let track = |i: usize| Track {
         velocity: [(-z[i] - x[i]) / 2.0, (w[i] + y[i]) / 2.0, 0.0],
         acceleration: [x[i] - z[i], w[i] - y[i], 0.0],

@@ -67,6 +67,35 @@ pub fn exr(width: usize, height: usize, precision: Precision, list: &[Channel]) 
     file.into_inner()
 }
 
+/// Returns an EXR whose data window of `size` lies at `place` in a display window of `display`.
+pub fn exr_window(size: [usize; 2], place: [i32; 2], display: [usize; 2], list: &[Channel]) -> Vec<u8> {
+    let attributes =
+        LayerAttributes { layer_position: exr::math::Vec2(place[0], place[1]), ..LayerAttributes::default() };
+    let encoding = exr::prelude::Encoding::FAST_LOSSLESS;
+    let layer = Layer::new((size[0], size[1]), attributes, encoding, channels(list, Precision::Float));
+    let bounds = exr::prelude::IntegerBounds::from_dimensions((display[0], display[1]));
+    let image = Image::new(exr::prelude::ImageAttributes::new(bounds), layer);
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
+/// Returns an EXR of 4x3 with these primaries and this compression.
+pub fn exr_with(
+    chromaticities: Option<exr::meta::attribute::Chromaticities>,
+    compression: exr::prelude::Compression,
+    list: &[Channel],
+) -> Vec<u8> {
+    let encoding = exr::prelude::Encoding { compression, ..exr::prelude::Encoding::UNCOMPRESSED };
+    let layer = Layer::new((4, 3), LayerAttributes::default(), encoding, channels(list, Precision::Float));
+    let bounds = exr::prelude::IntegerBounds::from_dimensions((4, 3));
+    let mut image = Image::new(exr::prelude::ImageAttributes::new(bounds), layer);
+    image.attributes.chromaticities = chromaticities;
+    let mut file = Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
 /// Returns an EXR with several named parts.
 pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) -> Vec<u8> {
     let part = |(name, list): &(&str, Vec<Channel>)| {
@@ -124,4 +153,32 @@ pub fn pfm(width: usize, height: usize, bands: usize, little: bool, values: &[f3
         file.extend(row.iter().flat_map(bytes));
     }
     file
+}
+
+/// Returns an `.npz` of arrays that are stored as they are, or compressed.
+pub fn npz(arrays: &[(&str, Vec<u8>)], compressed: bool) -> Vec<u8> {
+    let mut file = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    let method = if compressed { zip::CompressionMethod::Deflated } else { zip::CompressionMethod::Stored };
+    for (name, bytes) in arrays {
+        let options = zip::write::SimpleFileOptions::default().compression_method(method);
+        file.start_file(format!("{name}.npy"), options).unwrap();
+        std::io::Write::write_all(&mut file, bytes).unwrap();
+    }
+    file.finish().unwrap().into_inner()
+}
+
+/// Returns an Exif block that gives an orientation.
+pub fn exif(orientation: u16) -> Vec<u8> {
+    let mut block = b"II*\0\x08\0\0\0\x01\0".to_vec();
+    block.extend(0x0112_u16.to_le_bytes());
+    block.extend([3, 0, 1, 0, 0, 0]);
+    block.extend(orientation.to_le_bytes());
+    block.extend([0; 6]);
+    block
+}
+
+/// Returns a JPEG with this Exif block.
+pub fn jpeg_with_exif(jpeg: &[u8], exif: &[u8]) -> Vec<u8> {
+    let length = (exif.len() + 8) as u16;
+    [&jpeg[..2], &[0xff, 0xe1], &length.to_be_bytes(), b"Exif\0\0", exif, &jpeg[2..]].concat()
 }

@@ -2,9 +2,8 @@
 
 use png::ColorType;
 
-use super::super::raster::flow;
 use super::encode::{self, Precision};
-use super::folder::{Folder, H, SIZE, W, cells, check_refusal, empty, known, near, source};
+use super::folder::{Folder, H, SIZE, W, cells, check_refusal, empty, flow_of, known, near, source};
 
 const SPEED: &str = "{ kind = \"speed\" }";
 
@@ -15,7 +14,7 @@ fn uv(x: usize, y: usize) -> [f32; 2] {
 
 #[track_caller]
 fn check(bytes: Vec<u8>) {
-    let found = flow(&source("a.flow", bytes), SIZE).unwrap();
+    let found = flow_of(&source("a.flow", bytes), SIZE).unwrap();
     for (found, wanted) in found.iter().zip(cells(uv)) {
         near(&found.expect("known"), &wanted.map(f64::from), 0.0);
     }
@@ -47,9 +46,9 @@ fn flows_of_every_format_are_read_exactly() {
         (encode::pieh(4, 3, &[0.0; 12]), "holds 48 bytes of values where its header promises 96"),
         (encode::png8(4, 3, ColorType::Rgb, &[0; 36]), "16-bit RGB"),
         (encode::jpeg(4, 3, &[0; 36]), "no optical flow"),
-        (encode::exr(W, H, Precision::Half, &[("VX", vec![0.0; 12])]), "no optical flow"),
+        (encode::exr(W, H, Precision::Half, &[("VX", vec![0.0; 12])]), "none whose name says that it is the motion"),
     ] {
-        check_refusal(&flow(&source("a.flow", bytes), SIZE).unwrap_err(), "a.flow", what);
+        check_refusal(&flow_of(&source("a.flow", bytes), SIZE).unwrap_err(), "a.flow", what);
     }
 }
 

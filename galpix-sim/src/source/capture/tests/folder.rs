@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
+use super::super::manifest::MapFormat;
+use super::super::raster::{self, Canvas, Layout};
 use super::super::source::{Size, Source};
-use super::super::{AccelerationPolicy, Capture, CaptureError, ImportOptions, load};
+use super::super::{AccelerationPolicy, Capture, CaptureError, ImportOptions, colour, load};
 use super::encode;
+use crate::picture::Picture;
 use crate::update::{Known, Sample};
 
 /// Size of the pictures in most tests: not square, so that rows and columns cannot be mixed up.
@@ -30,10 +33,28 @@ pub fn source(name: &str, bytes: impl Into<Vec<u8>>) -> Source {
     Source { path: PathBuf::from(name), bytes: bytes.into() }
 }
 
+/// Reads a map of numbers without the remarks about it.
+pub fn numbers(source: &Source, channel: Option<&str>, format: MapFormat) -> Result<Vec<f64>, CaptureError> {
+    let layout = Layout { channel, format, ..Layout::default() };
+    let canvas = &mut Canvas { size: SIZE, notes: &mut Vec::new() };
+    raster::numbers(source, &layout, canvas).map(|mut fitted| fitted.bands.swap_remove(0))
+}
+
+/// Reads a flow of a size without the remarks about it.
+pub fn flow_of(source: &Source, size: Size) -> Result<Vec<Option<[f64; 2]>>, CaptureError> {
+    let canvas = &mut Canvas { size, notes: &mut Vec::new() };
+    raster::flow(source, &Layout::default(), canvas).map(|flow| flow.vectors)
+}
+
+/// Reads a picture without the remarks about it.
+pub fn picture(source: &Source, channel: Option<&str>, expected: Option<Size>) -> Result<Picture, CaptureError> {
+    colour::read(source, channel, expected, &mut Vec::new())
+}
+
 impl Folder {
     pub fn new() -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
-        let rgb: Vec<u8> = cells(colour).concat();
+        let rgb: Vec<u8> = cells(self::colour).concat();
         folder.with("color.png", encode::png8(W as u32, H as u32, png::ColorType::Rgb, &rgb))
     }
 

@@ -7,9 +7,9 @@ use png::ColorType;
 
 use super::super::manifest::MapFormat;
 use super::super::source::{Size, Source};
-use super::super::{CaptureError, ImportOptions, colour, load, raster};
+use super::super::{CaptureError, ImportOptions, colour, load};
 use super::encode::{self, Precision};
-use super::folder::{Folder, H, SIZE, W, cells, check_refusal, source};
+use super::folder::{self, Folder, H, SIZE, W, cells, check_refusal, source};
 
 /// Random changes to each file, unless the time is over.
 const CHANGES: u64 = 3000;
@@ -20,11 +20,11 @@ const TEXT_CHANGES: u64 = 300;
 type Reader = fn(&Source) -> Result<(), CaptureError>;
 
 fn picture(source: &Source) -> Result<(), CaptureError> {
-    colour::read(source, None, Some(SIZE)).map(|picture| assert_eq!(picture.pixels.len(), W * H))
+    folder::picture(source, None, Some(SIZE)).map(|picture| assert_eq!(picture.pixels.len(), W * H))
 }
 
 fn picture_of_any_size(source: &Source) -> Result<(), CaptureError> {
-    colour::read(source, None, None).map(|p| assert_eq!(p.pixels.len(), p.width * p.height))
+    folder::picture(source, None, None).map(|p| assert_eq!(p.pixels.len(), p.width * p.height))
 }
 
 fn mask(source: &Source) -> Result<(), CaptureError> {
@@ -32,7 +32,7 @@ fn mask(source: &Source) -> Result<(), CaptureError> {
 }
 
 fn map(source: &Source, format: MapFormat, channel: Option<&str>) -> Result<(), CaptureError> {
-    raster::numbers(source, channel, format, SIZE).map(|numbers| assert_eq!(numbers.len(), W * H))
+    folder::numbers(source, channel, format).map(|numbers| assert_eq!(numbers.len(), W * H))
 }
 
 fn raw(source: &Source) -> Result<(), CaptureError> {
@@ -40,7 +40,7 @@ fn raw(source: &Source) -> Result<(), CaptureError> {
 }
 
 fn flow(source: &Source) -> Result<(), CaptureError> {
-    raster::flow(source, SIZE).map(|flow| assert_eq!(flow.len(), W * H))
+    folder::flow_of(source, SIZE).map(|flow| assert_eq!(flow.len(), W * H))
 }
 
 /// Returns one small file of each format, and who reads it.
@@ -74,6 +74,12 @@ fn files() -> Vec<(&'static str, Vec<u8>, Reader)> {
         ("a.npy", encode::npy_f4("(3, 4)", &ramp), raw),
         ("flow.npy", encode::npy_f4("(3, 4, 2)", &doubled), flow),
         ("long.npy", encode::npy(3, "<f4", true, "(3, 4)", &[0; 48]), raw),
+        ("a.npz", encode::npz(&[("z", encode::npy_f4("(3, 4)", &ramp))], false), raw),
+        ("packed.npz", encode::npz(&[("f", encode::npy_f4("(3, 4, 2)", &doubled))], true), flow),
+        ("turned.jpg", encode::jpeg_with_exif(&encode::jpeg(4, 3, &narrow), &encode::exif(3)), picture),
+        ("window.exr", encode::exr_window([2, 2], [1, 1], [4, 3], &[("Z", vec![2.0; 4])]), raw),
+        ("motion.exr", encode::exr(W, H, Precision::Half, &[("u", ramp.clone()), ("v", ramp.clone())]), flow),
+        ("rgb24.png", encode::png8(4, 3, ColorType::Rgb, &narrow), |s| map(s, MapFormat::Rgb24, None)),
         ("a.pfm", encode::pfm(W, H, 1, false, &ramp), raw),
         ("flow.pfm", encode::pfm(W, H, 3, true, &tripled), flow),
     ]
@@ -166,6 +172,9 @@ fn damaged_texts_never_panic() {
         ("log", path),
         ("tum", "1 0 0 0 0 0 0 1\n".repeat(3)),
         ("tartanair", "0 0 0 0 0 0 1\n".repeat(3)),
+        ("kitti", "1 0 0 0 0 1 0 0 0 0 1 0\n".repeat(3)),
+        ("euroc", "1000000000,0,0,0,1,0,0,0\n2000000000,0,0,0,1,0,0,0\n3000000000,0,0,0,1,0,0,0\n".to_owned()),
+        ("colmap", "1 1 0 0 0 0 0 0 1 a1.png\n\n2 1 0 0 0 0 0 0 1 a2.png\n\n3 1 0 0 0 0 0 0 1 a3.png\n\n".to_owned()),
         ("transforms", format!("{{\"fl_x\": 9, \"cx\": 2, \"cy\": 1, \"frames\": [{frame}, {frame}, {frame}]}}")),
         ("matrix-files", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n".to_owned()),
     ];
@@ -239,7 +248,7 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     let frame = jpeg.windows(2).position(|w| w == [0xff, 0xc0]).unwrap();
     let huge = i32::MAX.to_le_bytes();
     let huge_pieh = patched(encode::pieh(4, 3, &[0.0; 24]), 4, &[huge, huge].concat());
-    let any = |s: &Source| colour::read(s, None, None).map(drop);
+    let any = |s: &Source| folder::picture(s, None, None).map(drop);
     let cases: [(&str, Vec<u8>, Reader); 12] = [
         ("a.png", png_of(2_000_000_000), any),
         ("b.png", png_of(16_384), any),
@@ -262,6 +271,6 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     }
     // The largest sizes that are allowed, in files that hold nothing of it.
     let allowed = Size { width: 16_384, height: 4096 };
-    let error = raster::flow(&source("l.flo", encode::pieh(16_384, 4096, &[0.0; 24])), allowed).unwrap_err();
+    let error = folder::flow_of(&source("l.flo", encode::pieh(16_384, 4096, &[0.0; 24])), allowed).unwrap_err();
     check_refusal(&error, "l.flo", "where its header promises 536870912");
 }

@@ -155,10 +155,11 @@ fn everything_has_the_size_of_the_colour_picture() {
     let wrong = encode::png8(3, 4, png::ColorType::Rgb, &rgb(3, 4));
     let what = "is 3x4 but the update's colour is 4x3";
     folder.write("wrong.png", &wrong);
+    folder.write("grey.png", encode::png8(3, 4, png::ColorType::Grayscale, &[1; 12]));
     folder.write("wrong.flo", encode::pieh(3, 4, &[0.0; 24]));
     folder.write("tall.png", encode::png8(4, 4, png::ColorType::Rgb, &rgb(4, 4)));
     folder.refused(&GOOD.replace("mask.png", "tall.png"), "tall.png", "is 4x4 but the update's colour is 4x3");
-    for (from, to) in [("z.npy", "wrong.png"), ("a.flo", "wrong.flo"), ("mask.png", "wrong.png")] {
+    for (from, to) in [("z.npy", "grey.png"), ("a.flo", "wrong.flo"), ("mask.png", "wrong.png")] {
         folder.refused(&GOOD.replace(from, to), to, what);
     }
     folder.refused(&GOOD.replace("color = \"color.png\"\nmask", "color = \"wrong.png\"\nmask"), "wrong.png", what);

@@ -4,18 +4,17 @@ use half::f16;
 use png::ColorType;
 
 use super::super::manifest::MapFormat;
-use super::super::raster::numbers;
 use super::encode::{self, Precision};
-use super::folder::{H, SIZE, W, cells, check_refusal, near, source};
+use super::folder::{H, W, cells, check_refusal, near, numbers, source};
 
 #[track_caller]
 fn read(bytes: Vec<u8>, channel: Option<&str>, format: MapFormat, wanted: &[f64]) {
-    near(&numbers(&source("a.map", bytes), channel, format, SIZE).unwrap(), wanted, 0.0);
+    near(&numbers(&source("a.map", bytes), channel, format).unwrap(), wanted, 0.0);
 }
 
 #[track_caller]
 fn refused(bytes: Vec<u8>, channel: Option<&str>, format: MapFormat, what: &str) {
-    let error = numbers(&source("a.map", bytes), channel, format, SIZE).unwrap_err();
+    let error = numbers(&source("a.map", bytes), channel, format).unwrap_err();
     check_refusal(&error, "a.map", what);
 }
 
@@ -90,7 +89,7 @@ fn npy_in_fortran_order_and_what_is_refused() {
     refused(encode::npy_f4("(4, 3)", &[0.0; 12]), None, MapFormat::Raw, "is 3x4 but the update's colour is 4x3");
     refused(encode::npy_f4("(12,)", &[0.0; 12]), None, MapFormat::Raw, "shape [12]");
     refused(encode::npy_f4("(3, 4, 2)", &[0.0; 24]), None, MapFormat::Raw, "2 numbers a pixel");
-    refused(encode::npy(1, "<i8", false, "(3, 4)", &[0; 96]), None, MapFormat::Raw, "type \"<i8\"");
+    refused(encode::npy(1, "<c8", false, "(3, 4)", &[0; 96]), None, MapFormat::Raw, "type \"<c8\"");
     refused(encode::npy(9, "<f4", false, "(3, 4)", &[0; 48]), None, MapFormat::Raw, "version 9");
 }
 
@@ -101,7 +100,8 @@ fn pfm_is_bottom_up_in_either_byte_order() {
     for little in [false, true] {
         read(encode::pfm(W, H, 1, little, &values), None, MapFormat::Raw, &wanted);
     }
-    refused(encode::pfm(W, H, 3, true, &[0.0; 36]), None, MapFormat::Raw, "3 numbers a pixel");
+    let colours: Vec<f32> = (0..36_u8).map(f32::from).collect();
+    refused(encode::pfm(W, H, 3, true, &colours), None, MapFormat::Raw, "3 numbers a pixel");
     let zero = encode::pfm(W, H, 1, false, &values);
     let zero = [b"Pf\n4 3\n0.0\n", &zero[zero.len() - 48..]].concat();
     refused(zero, None, MapFormat::Raw, "scale \"0.0\"");

@@ -40,7 +40,6 @@ fn what_is_translucent_is_pinned_from_one_half_on_and_noted() {
     let capture = folder.update(SPEED, FLOW, HUD).unwrap();
     let pinned: Vec<bool> = capture.update.overlay.unwrap().pixels.iter().map(Option::is_some).collect();
     assert_eq!(pinned, alphas.map(|alpha| alpha >= 128));
-    assert_eq!(capture.census.notes.len(), 1);
     assert!(capture.census.notes[0].starts_with("4 translucent pixels"), "{:?}", capture.census.notes);
 }
 
