@@ -3,8 +3,9 @@
 //! The first truth decides most: the update is warped to it as it was read, and as it would be under other conventions.
 //! Where one of these is clearly better, the note names it.
 
-use super::manifest::Motion;
-use super::{Census, Opened, motion};
+use super::camera::{self, Distance, Track};
+use super::manifest::{Axes, Camera, Depth, Motion, Quaternion, Transform};
+use super::{Census, Opened, motion, poses};
 use crate::metric;
 use crate::picture::Picture;
 use crate::update::{Known, Sample, Truth, Update};
@@ -43,8 +44,11 @@ pub(super) fn check(
             census.notes.push(format!("the mask of the truth at frame {} leaves nothing to compare", truth.frame));
         }
     }
-    let compared = truths.iter().find(|truth| truth.mask.as_ref().is_none_or(|mask| mask.contains(&true)));
-    census.notes.extend(compared.and_then(|truth| against(opened, update, truth)));
+    let mut compared = truths.iter().filter(|truth| truth.mask.as_ref().is_none_or(|mask| mask.contains(&true)));
+    let soon = compared.next().and_then(|truth| against(opened, update, truth, true));
+    // What is off by little shows late.
+    let late = || compared.next_back().and_then(|truth| against(opened, update, truth, false));
+    census.notes.extend(soon.or_else(late));
     Ok(())
 }
 
@@ -123,30 +127,87 @@ const ALTERNATIVES: [Alternative; 9] = [
 ];
 
 /// Compares the update, warped to a truth, with the same under other conventions and with the update shown unchanged.
-fn against(Opened { manifest, .. }: Opened<'_>, update: &Update, truth: &Truth) -> Option<String> {
+/// Long after the update, when not `soon`, any motion may have become wrong: only a convention that is much better
+/// counts then.
+fn against(opened: Opened<'_>, update: &Update, truth: &Truth, soon: bool) -> Option<String> {
     let read = warped(update, &AS_READ, truth)?;
     let stands = stands_still(update, truth)?;
-    let others = ALTERNATIVES.iter().filter_map(|other| Some((other, warped(update, other, truth)?)));
-    let (best, other) = others.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    let is_worse = read < stands - 0.1;
-    let names_one = other > read + BETTER && other > stands + BETTER;
+    let mut others: Vec<(String, f64)> = match &opened.manifest.update.motion {
+        Motion::Camera(camera) => of_camera(opened, camera, update, truth),
+        _ => Vec::new(),
+    };
+    let moving = ALTERNATIVES.iter().filter_map(|other| Some((other.key.to_owned(), warped(update, other, truth)?)));
+    others.extend(moving);
+    // Of equally good ones the first: what can be written into the manifest as it is named.
+    let (key, other) = others.into_iter().reduce(|best, next| if next.1 > best.1 { next } else { best })?;
+    let is_worse = soon && read < stands - 0.1;
+    let better = if soon { BETTER } else { 2.0 * BETTER };
+    let names_one = other > read + better && other > stands + better;
     if !is_worse && !names_one {
         return None;
     }
-    let poses = matches!(manifest.update.motion, Motion::Camera(_));
-    let named = match (names_one, poses) {
-        (false, _) => "the motion may not belong to these pictures".to_owned(),
-        (true, true) => format!(
-            "with the motion changed as by {} it would be {other:.1} dB: are axes, transform, quaternion, intrinsics and \
-             pose right?",
-            best.key
-        ),
-        (true, false) => format!("with {} it would be {other:.1} dB", best.key),
+    let named = if names_one {
+        format!("with {key} it would be {other:.1} dB")
+    } else {
+        "the motion may not belong to these pictures".to_owned()
     };
     Some(format!(
         "at frame {} the moved cells are at {read:.1} dB, the update shown unchanged at {stands:.1} dB: {named}",
         truth.frame
     ))
+}
+
+/// Returns what a truth says of the update under other conventions of its camera and of its distances: key and dB.
+fn of_camera(
+    Opened { manifest, folder, size, distances }: Opened<'_>,
+    camera: &Camera,
+    update: &Update,
+    truth: &Truth,
+) -> Vec<(String, f64)> {
+    let Some(distances) = distances else { return Vec::new() };
+    let with = |transform: Option<Transform>, quaternion: Option<Quaternion>, axes: Option<Axes>| Camera {
+        transform: transform.or(camera.transform),
+        quaternion: quaternion.or(camera.quaternion),
+        axes: axes.or(camera.axes),
+        ..camera.clone()
+    };
+    let cameras = [
+        ("transform = \"world-to-camera\"", with(Some(Transform::WorldToCamera), None, None)),
+        ("transform = \"camera-to-world\"", with(Some(Transform::CameraToWorld), None, None)),
+        ("quaternion = \"wxyz\"", with(None, Some(Quaternion::Wxyz), None)),
+        ("quaternion = \"xyzw\"", with(None, Some(Quaternion::Xyzw), None)),
+        ("axes = \"opengl\"", with(None, None, Some(Axes::Opengl))),
+        ("axes = \"opencv\"", with(None, None, Some(Axes::Opencv))),
+        ("axes = \"ned\"", with(None, None, Some(Axes::Ned))),
+    ];
+    let mut found = Vec::new();
+    let mut judge = |key: &str, camera: &Camera, along: bool| {
+        let Ok(path) = poses::read(camera, folder, size) else { return };
+        let [fx, fy, cx, cy] = path.intrinsics;
+        let planar = |((x, y), distance): ((usize, usize), &Distance)| match distance {
+            Distance::At(r) if along => {
+                let ray = [(x as f64 - cx) / fx, (y as f64 - cy) / fy];
+                Distance::At(r / (ray[0] * ray[0] + ray[1] * ray[1] + 1.0).sqrt())
+            }
+            other => *other,
+        };
+        let distances: Vec<Distance> = size.positions().zip(distances).map(planar).collect();
+        let mut meant = update.clone();
+        for (sample, track) in meant.samples.iter_mut().zip(camera::tracks(&path, path.frames, size, &distances)) {
+            match track {
+                Some(Track { velocity, acceleration }) => {
+                    (sample.velocity, sample.acceleration) = (velocity, acceleration);
+                }
+                None => sample.known = Known::ColourOnly,
+            }
+        }
+        found.extend(warped(&meant, &AS_READ, truth).map(|db| (key.to_owned(), db)));
+    };
+    if matches!(manifest.update.depth, Depth::Z(_)) {
+        judge("kind = \"ray\" of the depth", camera, true);
+    }
+    cameras.iter().for_each(|(key, camera)| judge(key, camera, false));
+    found
 }
 
 /// Returns the PSNR of the update at a truth, over the cells that a forward warp reaches; nothing if there are few.

@@ -191,8 +191,8 @@ pub(super) fn blender(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>)
 }
 
 /// The motion buffer of `XR_FB_space_warp` and `XR_EXT_frame_synthesis`: in each pixel of a half-float picture the
-/// movement of a surface point since the last frame of the application, in normalised device coordinates, `scale * raw +
-/// offset`, y up; the third channel is that of the depth buffer's value. The next frame is taken to move on alike.
+/// movement of a surface point since the last frame of the application, in normalised device coordinates, `scale * raw
+/// + offset`, y up; the third channel is that of the depth buffer's value. The next frame is taken to move on alike.
 pub(super) fn space_warp(
     vectors: &Vectors,
     opened: Opened<'_>,

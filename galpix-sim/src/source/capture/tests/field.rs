@@ -103,7 +103,7 @@ fn inputs_that_a_key_makes_right() {
         ),
         ("16-depth-all-negative", ("kind = \"z\"", "kind = \"z\", sign = -1"), "add sign = -1"),
         ("18-pfm-top-down", ("kind = \"z\"", "kind = \"z\", rows = \"top-down\""), "rows"),
-        ("21-depth-along-the-ray", ("kind = \"z\"", "kind = \"ray\""), ""),
+        ("21-depth-along-the-ray", ("kind = \"z\"", "kind = \"ray\""), "kind = \"ray\""),
     ];
     for (name, change, said) in inputs {
         let capture = read(&field.join(name), &[change]).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -218,3 +218,31 @@ fn the_cameras_of_a_colmap_model_are_used() {
     folder.write("cameras.txt", "8 PINHOLE 4 3 100 100 2 1.5");
     folder.refused(&manifest(DEPTH, &format!("{{ kind = \"camera\", {keys} }}"), ""), "cameras.txt", "no camera 7");
 }
+
+#[test]
+fn a_convention_of_the_camera_that_meets_the_truth_is_named() {
+    let (w, h) = (48_usize, 32_usize);
+    let noise = |x: i64, y: i64| [x * 37 + y * 91, x * 53 + y * 17, x * x + y * 29].map(|v| (v.rem_euclid(251)) as u8);
+    let picture = |moved: i64| {
+        let rgb: Vec<u8> = (0..h as i64).flat_map(|y| (0..w as i64).flat_map(move |x| noise(x + moved, y))).collect();
+        encode::png8(w as u32, h as u32, png::ColorType::Rgb, &rgb)
+    };
+    // The camera moves by 0.04 a frame to the right: two pixels, of which the file says the inverse.
+    let folder = Folder::new()
+        .with("color.png", picture(0))
+        .with("t.png", picture(4))
+        .with("z.npy", encode::npy_f4(&format!("({h}, {w})"), &vec![2.0; w * h]))
+        .with("p.txt", lines(&TIMES, |t| format!("1 0 0 {} 0 1 0 0 0 0 1 0", -0.04 * t)));
+    let truth = "[[truth]]\nframe = 2\ncolor = \"t.png\"";
+    let read = |keys: &str| {
+        let motion =
+            format!("{{ kind = \"camera\", format = \"kitti\", poses = \"p.txt\", pose = 2, {INTRINSICS}{keys} }}");
+        folder.update(DEPTH, &motion, truth).unwrap().census.notes
+    };
+    let notes = read("");
+    assert!(
+        notes.len() == 1 && notes[0].contains("with transform = \"world-to-camera\" it would be 100.0 dB"),
+        "{notes:?}"
+    );
+    assert_eq!(read(", transform = \"world-to-camera\""), Vec::<String>::new());
+}
