@@ -2169,7 +2169,7 @@ TRIED = 4                                           # columns or rows that a qua
 NEITHER, FIRST_ENDS, SECOND_ENDS, LINKED = range(4)
 WAYS = ((1, 0), (0, 1), (1, 1), (1, -1))            # t of the cracks, in the order in which they are tried
 
-SourceLayer = namedtuple("SourceLayer", "grid galpixels displacements links")
+SourceLayer = namedtuple("SourceLayer", "grid galpixels displacements links mixed")
 Sources = namedtuple("Sources", "engine limit e layers")    # limit in units of the depth field, e is E
 Entry = namedtuple("Entry", "depth kind number u v")
 Links = namedtuple("Links", "right below")                  # of each cell, what is said of its two pairs
@@ -2294,8 +2294,9 @@ def make_sources(engine, limit, maps):
         reached["21 E is 2^15"] += 1
         e = 1 << DEPTH_15
     sources = Sources(engine, limit, e, [])
-    sources.layers.extend(SourceLayer(grid, galpixels, displacements, make_links(sources, grid, galpixels))
-                          for grid, galpixels, displacements in maps)
+    for number, (grid, galpixels, displacements) in enumerate(maps):
+        sources.layers.append(SourceLayer(grid, galpixels, displacements, make_links(sources, grid, galpixels), None))
+        sources.layers[number] = sources.layers[number]._replace(mixed=has_mixed_rims(sources, number))
     return sources
 
 
@@ -2335,7 +2336,7 @@ def step_sources(sources, rounding, n):
     thresholds = thresholds_of(sources.engine, rounding, n)
     low, high = lowest(16), highest(16)
     layers, saturated = [], 0
-    for grid, galpixels, displacements, links in sources.layers:
+    for grid, galpixels, displacements, links, mixed in sources.layers:
         galpixels, displacements = list(galpixels), list(displacements)
         for cell, galpixel in enumerate(galpixels):
             if not is_sample(galpixel):
@@ -2349,7 +2350,7 @@ def step_sources(sources, rounding, n):
                     reached[f"21 displacement in {name} clamped at the {'lowest' if number < got else 'highest'}"] += 1
                     saturated += 1
             displacements[cell] = place
-        layers.append(SourceLayer(grid, galpixels, displacements, links))
+        layers.append(SourceLayer(grid, galpixels, displacements, links, mixed))
     return sources._replace(layers=layers), saturated
 
 
@@ -2379,7 +2380,7 @@ def entry_depth(depth, kind):
 def point_of(sources, layer, cell):
     """Section 21, points: (cell on the grid or None, its entry)."""
     engine = sources.engine
-    own, galpixels, displacements, _ = sources.layers[layer]
+    own, galpixels, displacements, _, _ = sources.layers[layer]
     row, column = divmod(cell, columns(own))
     column, row = column + displacements[cell][0], row + displacements[cell][1]
     outside = [side for side, off in zip(SIDES, (column < 0, column >= columns(engine.grid), row < 0,
@@ -2397,7 +2398,7 @@ def point_of(sources, layer, cell):
 
 def place_of(sources, layer, cell):
     """Section 21, stretched quads: P, in 32ths of a cell."""
-    _, galpixels, displacements, _ = sources.layers[layer]
+    _, galpixels, displacements, _, _ = sources.layers[layer]
     return tuple(displacements[cell][number] * 32 + part_of_bits(sources.engine, galpixels[cell], number, 5)
                  for number in range(2))
 
@@ -2503,7 +2504,7 @@ def all_entries(sources):
         if other is None or entry[:3] < other[:3]:
             best[cell] = entry
 
-    for layer, (_, galpixels, _, _) in enumerate(sources.layers):
+    for layer, (_, galpixels, _, _, _) in enumerate(sources.layers):
         for cell, galpixel in enumerate(galpixels):
             if not is_sample(galpixel):
                 continue
@@ -2614,6 +2615,38 @@ def close_cracks(sources, entries):
     return result
 
 
+def could_replace(mine, inner, nearer):
+    """Section 21, colour of an entry: whether the channels `inner` could take the place of `mine`, beside `nearer`."""
+    return all(abs(n - i) <= 8 * abs(m - i) and abs(m - i) <= abs(n - i) and (m - i) * (n - i) >= 0
+               for m, i, n in zip(mine, inner, nearer))
+
+
+def has_mixed_rims(sources, layer):
+    """Section 21, colour of an entry: whether the rims of a layer are mixed."""
+    galpixels = sources.layers[layer].galpixels
+    t = m = c = 0
+    for s in range(len(galpixels)):
+        for side in range(len(SIDES)):
+            n, said = pair(sources, layer, s, side)
+            if said != SECOND_ENDS:
+                continue
+            i = linked_with(sources, layer, s, OPPOSITE[side])
+            j = None if i is None else linked_with(sources, layer, i, OPPOSITE[side])
+            if j is None:
+                reached["21 rim without two neighbours opposite"] += 1
+                continue
+            ns, ss, is_, js = (split_channels(galpixels[place]["colour"], sources.engine.layout.colour)
+                               for place in (n, s, i, j))
+            t += 1
+            m += ss != is_ and could_replace(ss, is_, ns)
+            c += is_ != js and could_replace(is_, js, ns)
+    mixed = m > 2 * c and 4 * m >= t
+    if t:
+        reached["21 rims mixed" if mixed else "21 rims not mixed: too few" if m > 2 * c else
+                "21 rims not mixed: as many inside" if 4 * m >= t else "21 rims not mixed: both"] += 1
+    return mixed
+
+
 def own_colour(sources, entries, cell):
     """Section 21, colour of an entry: the channels s, of the stored colour or in place of it."""
     grid, entry = sources.engine.grid, entries[cell]
@@ -2625,6 +2658,8 @@ def own_colour(sources, entries, cell):
 
     s = channels_at(at)
     best, result = 0, s
+    if not sources.layers[layer].mixed:
+        return s
     for side in range(len(SIDES)):
         neighbour, said = pair(sources, layer, at, side)
         if said != SECOND_ENDS:
@@ -3042,7 +3077,9 @@ def rule_names():
     names += [f"20 colour {name}" for name in FORMATS]
     names += [f"20 shown, class {klass}" for klass in range(4)]
     names += ["21 no depth field", "21 depth below 15 bits", "21 depth above 15 bits",
-              "21 one layer", "21 several layers", "21 a layer with fewer columns", "21 threshold above 2^31 - 1", "21 E is 2^15",
+              "21 one layer", "21 several layers", "21 a layer with fewer columns",
+              "21 rim without two neighbours opposite", "21 rims mixed", "21 rims not mixed: too few",
+              "21 rims not mixed: as many inside", "21 threshold above 2^31 - 1", "21 E is 2^15",
               "21 with sub-cell scan-out", "21 without sub-cell scan-out"]
     names += [f"21 class {klass} is no sample" for klass in (JUST_UNOBSCURED, DEBRIS, EMPTY)]
     names += [f"21 no step only by the difference {which}{just}" for which in ("of the pair", "before", "after")

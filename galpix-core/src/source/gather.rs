@@ -1,7 +1,7 @@
 //! The colours of entries: bilinear between a sample and its linked neighbours, by the residual.
 
 use super::layer::Source;
-use super::links::{Links, Side};
+use super::links::{Links, Side, WORD};
 use super::visibility::{Entry, PARTS};
 use crate::format::Format;
 use crate::format::colour::WEIGHTS;
@@ -67,6 +67,9 @@ fn unmixed<F: Format>(source: &Source<'_, F>, cell: u32, in_front: impl Fn(u32, 
     let (map, links) = (&source.map, source.links());
     let (own, format) = (map.colour(cell), *map.record().colour_format());
     let (mut unmixed, mut farthest) = (own, 0);
+    if !source.is_mixed() {
+        return own;
+    }
     for side in Side::ALL {
         let nearer = links.beyond(cell, side);
         if !links.ends(nearer, side.opposite()) || in_front(nearer, side) {
@@ -80,6 +83,44 @@ fn unmixed<F: Format>(source: &Source<'_, F>, cell: u32, in_front: impl Fn(u32, 
         }
     }
     unmixed
+}
+
+/// Returns whether the colours of samples beside a nearer surface are taken for mixtures of both: a renderer that mixes
+/// does so at all rims, while in a texture a colour may lie between two others anywhere. So a quarter of these samples
+/// must be between the nearer surface and the neighbour on the other side, and more than twice as many as of those
+/// neighbours, which no renderer has mixed.
+pub(crate) fn are_mixed<F: Format>(source: &Source<'_, F>) -> bool {
+    let (map, links) = (&source.map, source.links());
+    let format = map.record().colour_format();
+    let (mut rims, mut mixed, mut inner_mixed) = (0u32, 0u32, 0u32);
+    let is_between = |cell: u32, [inner, nearer]: [u32; 2]| {
+        let [own, inner, nearer] = [cell, inner, nearer].map(|cell| map.colour(cell));
+        own != inner && format.is_mixture(own, [inner, nearer])
+    };
+    for (first, word) in (0..).step_by(WORD as usize).zip(links.words) {
+        // No bit where both of a pair are set, or none.
+        if (word ^ word >> 1) & 0x5555_5555 == 0 {
+            continue;
+        }
+        for cell in first..first + WORD {
+            for (before, after) in [(Side::Left, Side::Right), (Side::Above, Side::Below)] {
+                let beyond = links.beyond(cell, after);
+                let (nearer, own, side) = if links.ends(cell, after) {
+                    (cell, beyond, after)
+                } else if links.ends(beyond, before) {
+                    (beyond, cell, before)
+                } else {
+                    continue;
+                };
+                let Some(inner) = links.neighbour(own, side) else { continue };
+                let Some(innermost) = links.neighbour(inner, side) else { continue };
+                rims += 1;
+                mixed += u32::from(is_between(own, [inner, nearer]));
+                inner_mixed += u32::from(is_between(inner, [innermost, nearer]));
+            }
+        }
+    }
+    mixed > inner_mixed << 1 && mixed << 2 >= rims
 }
 
 /// Returns how far a cell's centre lies beyond the sample that is nearest to it, towards a side at which the sample's

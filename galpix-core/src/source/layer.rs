@@ -1,5 +1,6 @@
 //! One layer: samples that stay in the cells where an update put them.
 
+use super::gather::are_mixed;
 use super::links::{self, Links};
 use crate::error::SetupError;
 use crate::format::Format;
@@ -51,6 +52,15 @@ impl<'p, F: Format> Source<'p, F> {
     pub fn begin_at(&mut self, place: Displacement, edge_threshold: u32) {
         self.displacements.fill(displacement_word(place));
         F::source_links(&self.map, edge_threshold, self.links);
+        let mixed = are_mixed(self);
+        if let Some(word) = self.links.last_mut() {
+            *word = mixed.into();
+        }
+    }
+
+    /// Returns whether colours beside a nearer surface are taken for mixtures of both.
+    pub(crate) fn is_mixed(&self) -> bool {
+        self.links.last().is_some_and(|&word| word != 0)
     }
 
     /// Steps all samples without showing them: a source that is not shown yet follows what it missed. `frame` is the
@@ -96,7 +106,8 @@ impl<'p, F: Format> Source<'p, F> {
     }
 
     pub(crate) const fn links(&self) -> Links<'_> {
-        Links { words: self.links, width: self.map.grid().width() }
+        let (words, _) = self.links.split_at(links::pair_words(self.map.grid()));
+        Links { words, width: self.map.grid().width() }
     }
 
     /// Returns the place of a sample relative to the cell where it is stored, in parts of a cell.

@@ -20,9 +20,15 @@ pub(crate) const FIRST: u32 = 0b01;
 /// The second of two samples is nearer.
 pub(crate) const SECOND: u32 = 0b10;
 
-/// Returns the words of the links of a grid.
+/// Returns the words of the links of a grid: those of the pairs, and one that says whether its rims are mixed, see
+/// [`are_mixed`](super::gather::are_mixed).
 #[must_use]
 pub const fn words(grid: &Grid<'_>) -> usize {
+    pair_words(grid) + 1
+}
+
+/// Returns the words of the links of a grid's pairs.
+pub(crate) const fn pair_words(grid: &Grid<'_>) -> usize {
     grid.cells().div_ceil(WORD) as usize
 }
 

@@ -39,7 +39,7 @@
 //!     map.store(x, 0, if x == 1 { &near } else { &background });
 //! }
 //!
-//! let (mut displacements, mut links, mut keys, mut words, mut line) = ([0; 6], [0; 1], [0; 6], [0; 6], [0; 48]);
+//! let (mut displacements, mut links, mut keys, mut words, mut line) = ([0; 6], [0; 2], [0; 6], [0; 6], [0; 48]);
 //! let settings = Settings::for_depth(16);
 //! let mut layers = [Source::new(map, &mut displacements, &mut links)?];
 //! layers[0].begin(settings.edge_threshold);

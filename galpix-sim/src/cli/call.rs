@@ -20,9 +20,7 @@ pub fn open(name: &str, acceleration: AccelerationChoice) -> Result<Source, CliE
 /// Returns the sources that are named; all scenes and the capture marbles if none is.
 pub fn sources(names: &[String], acceleration: AccelerationChoice) -> Result<Vec<Source>, CliError> {
     if names.is_empty() {
-        let sources = all(acceleration);
-        sources.iter().for_each(super::remark);
-        return Ok(sources);
+        return Ok(all(acceleration));
     }
     let open = |name: &String| Source::open(name, &acceleration.into()).map_err(CliError::unusable);
     let sources = names.iter().map(open).collect::<Result<Vec<_>, _>>()?;
@@ -33,10 +31,7 @@ pub fn sources(names: &[String], acceleration: AccelerationChoice) -> Result<Vec
             "two sources are called `{}`: give each once, or another `name` in its manifest",
             printable(twice.name())
         ))),
-        None => {
-            sources.iter().for_each(super::remark);
-            Ok(sources)
-        }
+        None => Ok(sources),
     }
 }
 

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use super::call::{command, machine, spare, writable};
-use super::{CliError, note, print, printable, printable_lines, progress};
+use super::{CliError, note, print, printable, printable_lines, progress, remarks};
 use crate::output::save::write_atomically;
+use crate::source::Source;
 use crate::study::{Document, File, Found, PathPrinted, SCHEMA, Silent, Stage, Study, StudyError, Work};
 
 impl From<StudyError> for CliError {
@@ -26,6 +27,8 @@ pub struct Publication {
     pub json: bool,
     /// What is read, as it was given: no file of it is replaced.
     pub reads: Vec<String>,
+    /// What is noteworthy of the sources: said once nothing is refused any more.
+    pub remarks: Vec<String>,
 }
 
 impl Publication {
@@ -38,12 +41,17 @@ impl Publication {
 
     /// Puts files into this folder, if any.
     pub fn to(out: Option<&PathBuf>, json: bool) -> Self {
-        Self { out: out.cloned(), json, reads: Vec::new() }
+        Self { out: out.cloned(), json, reads: Vec::new(), remarks: Vec::new() }
     }
 
-    /// Returns the same, for sources that are read from there.
+    /// Returns the same, for something that is read from there.
     pub fn reading(self, given: &[String]) -> Self {
         Self { reads: given.to_vec(), ..self }
+    }
+
+    /// Returns the same, for sources.
+    pub fn of(self, sources: &[Source]) -> Self {
+        Self { remarks: sources.iter().flat_map(remarks).collect(), ..self }
     }
 }
 
@@ -56,6 +64,7 @@ pub fn drive<S: Study>(study: &S, sources: &[S::Source], to: &Publication) -> Re
         let files = ["csv", "json", "html"].map(|kind| out.join(format!("{}.{kind}", S::NAME)));
         to.reads.iter().try_for_each(|given| spare(given, files.clone()))?;
     }
+    to.remarks.iter().for_each(|text| note(text));
     if let (Some(head), false) = (study.head(), to.json) {
         print(&head)?;
     }

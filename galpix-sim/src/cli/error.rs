@@ -110,7 +110,7 @@ impl Error {
         }
         self.inpainting.check(plan.fills.iter().copied())?;
         let sources = call::sources(&self.sources, self.acceleration)?;
-        let to = Publication::usual(self.out.as_ref(), self.json, "error").reading(&self.sources);
+        let to = Publication::usual(self.out.as_ref(), self.json, "error").reading(&self.sources).of(&sources);
         drive(&plan, &sources, &to)
     }
 

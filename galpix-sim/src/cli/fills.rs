@@ -54,7 +54,7 @@ impl Fills {
     pub fn run(&self) -> Result<(), CliError> {
         let plan = self.plan()?;
         let sources = call::sources(&self.sources, self.acceleration)?;
-        let to = Publication::usual(self.out.as_ref(), self.json, "fills").reading(&self.sources);
+        let to = Publication::usual(self.out.as_ref(), self.json, "fills").reading(&self.sources).of(&sources);
         drive(&plan, &sources, &to)
     }
 

@@ -50,7 +50,7 @@ impl LayersArguments {
             Request { frames: self.frames, prop: self.prop, ..Request::default() }.in_scheme(self.scheme.into());
         let plan = Plan { request, strategies: layers::strategies(self.separation) };
         let sources = call::sources(&self.sources, self.acceleration)?;
-        let to = Publication::usual(self.out.as_ref(), self.json, "layers").reading(&self.sources);
+        let to = Publication::usual(self.out.as_ref(), self.json, "layers").reading(&self.sources).of(&sources);
         drive(&plan, &sources, &to)
     }
 }

@@ -200,10 +200,13 @@ const PLAIN: [(&str, &str); 4] = [
 static QUIET: AtomicBool = AtomicBool::new(false);
 /// Writes what is noteworthy of a capture on standard error: after what may refuse it, which is one sentence alone.
 fn remark(source: &Source) {
+    remarks(source).iter().for_each(|text| note(text));
+}
+
+/// Returns what is noteworthy of a capture, line by line.
+fn remarks(source: &Source) -> Vec<String> {
     let notes = source.census().map(|census| census.notes.as_slice()).unwrap_or_default();
-    for text in notes {
-        note(&format!("{}: note: {}", printable(source.name()), printable(text)));
-    }
+    notes.iter().map(|text| format!("{}: note: {}", printable(source.name()), printable(text))).collect()
 }
 
 /// Writes a line on standard error. A reader that has gone away is no failure.

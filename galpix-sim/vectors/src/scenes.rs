@@ -64,6 +64,9 @@ pub enum Scene {
     Hurried,
     /// Cells of a near surface leave a background, just behind it, with whose colours theirs are mixed.
     Speckle,
+    /// Near cells, each alone, leave a background with whose colour theirs are mixed where the two meet: nearly
+    /// everywhere, or here and there.
+    Rims { few: bool },
 }
 
 /// What a scene has in a cell.
@@ -98,6 +101,8 @@ impl Scene {
             Self::Steps => "steps",
             Self::Hurried => "hurried",
             Self::Speckle => "speckle",
+            Self::Rims { few: false } => "rims",
+            Self::Rims { few: true } => "few-rims",
         }
     }
 
@@ -220,6 +225,25 @@ impl Scene {
                 let colour = [mixed(behind[0], 16), mixed(behind[1], 240), mixed(behind[2], 128) + noise(1)];
                 let colour = colour.map(|level| level as u8);
                 Sample { depth: behind_depth, speed: [-200, 0], colour, ..plain }
+            }
+            Self::Rims { few } => {
+                let behind_depth = plain.depth + 1;
+                let (near_colour, behind) = ([16, 240, 128], [208, 48, 64]);
+                let is_near = |x: i32, y: i32| (x * 5 + y * 3).rem_euclid(19) == 0;
+                if is_near(x, y) {
+                    let depth = behind_depth - [0x401, 0x402, 0x403, 0x800, 0x1000][noise(4).unsigned_abs() as usize];
+                    let speed = if noise(2) == 0 { [-200, 0] } else { [200, 60] };
+                    let colour = if noise(1) == 1 { behind } else { near_colour };
+                    return Sample { depth, speed, colour, ..plain };
+                }
+                let is_rim = is_near(x - 1, y) || is_near(x + 1, y) || is_near(x, y - 1) || is_near(x, y + 1);
+                let is_mixed = is_rim && (!few || noise(4) == 4);
+                let part = if is_mixed { noise(3).abs() * 2 } else { 0 };
+                let mixed = [0, 1, 2].map(|channel| {
+                    let [from, to] = [behind, near_colour].map(|colour: [u8; 3]| i32::from(colour[channel]));
+                    ((from * (8 - part) + to * part) / 8) as u8
+                });
+                Sample { depth: behind_depth, speed: [-200, 0], colour: mixed, ..plain }
             }
             Self::Steps => {
                 let depth = [0x4000, 0x4000, 0x9000][(x / 4 % 3) as usize];

@@ -1,7 +1,7 @@
 //! Cases of stationary sources: which there are, what they say, and the core run over their inputs.
 
 use galpix_core::layers::displacement_word;
-use galpix_core::source::{Gather, Source, Sources, Visibility};
+use galpix_core::source::{Gather, Source, Sources, Visibility, link_words};
 use galpix_core::stages::threshold_for_depth;
 use galpix_core::{Bits, Demand, Dynamic, FillMode, Galpixmap, Grid, Layout, Rounding, Settings, SetupError, Tally};
 use schemars::JsonSchema;
@@ -157,8 +157,7 @@ struct LayerMemory {
 
 impl LayerMemory {
     fn new([map, displacements]: [Vec<u32>; 2]) -> Self {
-        let links = vec![0; displacements.len()];
-        Self { map, displacements, links }
+        Self { map, displacements, links: Vec::new() }
     }
 
     /// Makes a layer that is linked where its samples are stored, and then lies where it is given.
@@ -169,6 +168,7 @@ impl LayerMemory {
         edge_threshold: u32,
     ) -> Result<Source<'m, Dynamic>, SetupError> {
         let displacements = self.displacements.clone();
+        self.links.resize(link_words(&grid), 0);
         let map = Galpixmap::over(grid, format, &mut self.map)?;
         let mut source = Source::new(map, &mut self.displacements, &mut self.links)?;
         source.begin(edge_threshold);
@@ -309,7 +309,7 @@ const SCENES: [(Scene, usize); 14] = [
 ];
 
 /// Quads of every form, cracks, rims, and displacements at their limits, over few layouts.
-const SPECIAL: [(Scene, usize); 34] = [
+const SPECIAL: [(Scene, usize); 42] = [
     (placed("at-limit", [44, 0, 0, 44], 0), 2),
     (placed("beyond-across", [45, 0, 0, 32], 0), 1),
     (placed("beyond-down", [32, 0, 0, 45], 0), 2),
@@ -344,6 +344,14 @@ const SPECIAL: [(Scene, usize); 34] = [
     (Scene::Speckle, 2),
     (Scene::Swell, 2),
     (Scene::Swell, 1),
+    (Scene::Rims { few: false }, 1),
+    (Scene::Rims { few: true }, 1),
+    (Scene::Rims { few: false }, 2),
+    (Scene::Rims { few: false }, 1),
+    (Scene::Rims { few: true }, 1),
+    (Scene::Rims { few: false }, 1),
+    (Scene::Rims { few: false }, 1),
+    (Scene::Rims { few: false }, 1),
 ];
 
 /// Returns all cases, over the layouts of the others and three more.
@@ -445,6 +453,7 @@ fn case(seed: u64, model: &Model, (scene, layers): (Scene, usize), turn: usize) 
         frame: [0, u32::MAX - 1, 5][turn % 3],
         frames: match scene {
             Scene::Slide | Scene::Swell | Scene::Speckle => 3,
+            Scene::Rims { .. } => 1 + turn as u32 % 3,
             _ if special => turn as u32 % 2,
             _ => [3, 4, 2, 0, 3][turn % 5],
         },

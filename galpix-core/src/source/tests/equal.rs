@@ -288,13 +288,13 @@ fn scramble<F: Format>(random: &mut Random, sources: &mut Sources<'_, '_, F>, in
     for layer in sources.layers.iter_mut() {
         let grid = *layer.map.grid();
         for word in layer.links.iter_mut() {
-            // Mostly linked.
+            // Mostly linked; and rims mostly mixed.
             *word = random.next() | random.next() | if random.below(3) > 0 { random.next() | random.next() } else { 0 };
         }
         if !inside {
             continue;
         }
-        for cell in 0..layer.links.len() as u32 * 8 {
+        for cell in 0..links::pair_words(&grid) as u32 * 8 {
             let (x, y) = (cell % grid.width(), cell / grid.width());
             let right = if x + 1 < grid.width() && y < grid.height() { 3 } else { 0 };
             let below = if y + 1 < grid.height() { 12 } else { 0 };

@@ -157,6 +157,44 @@ fn still(random: &mut Random, sources: Shown<'_, '_, '_>, variety: u32) {
 
 /// Bars of one cell before a far background that slides, and bars that slide before one that does not: in no row are
 /// there more cells of bars than bars.
+/// A textured block moves by whole cells before a textured ground: what is seen has the colours that are stored, and
+/// those of the ground that lie between others by chance are not taken for mixtures.
+#[test]
+fn textures_moved_by_whole_cells_are_shown_as_they_are_stored() {
+    let mut random = Random(31);
+    let (format, shape) = (format(4, Layout::FULL), (60, 40, Margin::NONE));
+    let settings = Settings::for_depth(16);
+    for colours in [1, 3] {
+        let texture: Vec<[u8; 3]> = (0..60 * 40)
+            .map(|_| {
+                let one = random.below(256) as u8;
+                [0; 3].map(|_: u8| if colours == 1 { one } else { random.below(256) as u8 })
+            })
+            .collect();
+        let is_near = |x: i32, y: i32| (20..40).contains(&x) && (12..28).contains(&y);
+        let mut layers = [drawn(shape, format, |x, y| {
+            let (depth, velocity) = if is_near(x, y) { (0.25, [2.0, 1.0]) } else { (0.75, [0.0; 2]) };
+            Galpixel { colour: texture[(y * 60 + x) as usize], ..gray(0, depth, velocity) }
+        })];
+        with_sources(shape, format, &mut layers, &mut Random(1), |sources| {
+            sources.layers[0].begin(settings.edge_threshold);
+            for _ in 0..4 {
+                sources.step(&settings);
+            }
+            let mut seen = 0;
+            for (y, row) in (0..).zip(picture(sources, FillMode::Extend)) {
+                for (x, colour) in (0..).zip(row) {
+                    if let Some((_, cell)) = sources.shown(y * 60 + x) {
+                        assert_eq!(colour, sources.layers[0].map.colour(cell), "({x}, {y})");
+                        seen += 1;
+                    }
+                }
+            }
+            assert!(seen > 2000);
+        });
+    }
+}
+
 #[test]
 fn a_fence_of_one_pixel_bars_never_closes() {
     for (bars, background) in [([0.0, 0.0], [0.4, 0.0]), ([0.3, 0.0], [0.0, 0.0]), ([-0.7, 0.2], [0.4, -0.6])] {
@@ -277,7 +315,7 @@ fn thin_lines_keep_their_mean() {
             let page = if depth == 0.75 { velocity } else { [0.0; 2] };
             let text = |x, y| if is_line(x, y) { gray(20, depth, velocity) } else { gray(220, 0.75, page) };
             let behind = |_, _| gray(220, 0.75, page);
-            // What is nearer needs a background to be uncovered.
+            // What is nearer needs a background to be seen.
             let lists: [&[&dyn Fn(i32, i32) -> Galpixel]; 2] = [&[&text], &[&text, &behind]];
             let list = lists[usize::from(depth == 0.25)];
             run((20, 20), list, 4, |frame, sources, _| {

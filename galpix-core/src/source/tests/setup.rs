@@ -30,13 +30,13 @@ fn each_error_of_setup_says_what_to_do() {
     let short = |plane, need, have| {
         std::format!("the {plane} needs {need} words and {have} were provided: provide a longer slice")
     };
+    assert_eq!(said(source(grid, 35, 6)), short("plane of displacements", 36, 35));
+    assert_eq!(said(source(grid, 36, 5)), short("plane of links", 6, 5));
     assert_eq!(said(source(grid, 35, 5)), short("plane of displacements", 36, 35));
-    assert_eq!(said(source(grid, 36, 4)), short("plane of links", 5, 4));
-    assert_eq!(said(source(grid, 35, 4)), short("plane of displacements", 36, 35));
     assert_eq!(said(visibility(grid, [1, 0, 0])), short("plane of keys", 36, 35));
     assert_eq!(said(visibility(grid, [0, 1, 0])), short("plane of entries", 36, 35));
     assert_eq!(said(visibility(grid, [0, 0, 1])), short("line of entries", 72, 71));
-    assert!(source(grid, 36, 5).is_ok() && source(grid, 99, 99).is_ok());
+    assert!(source(grid, 36, 6).is_ok() && source(grid, 99, 99).is_ok());
 
     let shown = |grid| visibility(grid, [0; 3]).unwrap();
     let none: &mut [Source<'_, Static<Small>>] = &mut [];
@@ -45,7 +45,7 @@ fn each_error_of_setup_says_what_to_do() {
         "a map of 0x0 cells cannot be made: both sides must be 1 to 32768, margin included, and the cells at most 2^28"
     );
     let differ = "the two maps have different grids: make both over the same one";
-    let mut layers = [source(grid, 36, 5).unwrap(), source(other, 45, 6).unwrap()];
+    let mut layers = [source(grid, 36, 6).unwrap(), source(other, 45, 7).unwrap()];
     assert_eq!(said(Sources::new(&mut layers[..1], shown(other))), differ);
     assert_eq!(said(Sources::new(&mut layers[1..], shown(grid))), differ);
     assert!(Sources::new(&mut layers, shown(grid)).is_ok());
@@ -53,8 +53,8 @@ fn each_error_of_setup_says_what_to_do() {
     // What a base must be and a layer may be does not change when one is replaced.
     let wide = "a layer of 10 columns is wider than the map of the display, which has 9: store only columns that can be \
                 seen";
-    let wider = || source(Grid::new(10, 1, Margin::NONE, vec![0].leak()).unwrap(), 10, 2).unwrap();
-    let small = || source(Grid::new(4, 2, Margin::NONE, vec![0; 2].leak()).unwrap(), 8, 1).unwrap();
+    let wider = || source(Grid::new(10, 1, Margin::NONE, vec![0].leak()).unwrap(), 10, 3).unwrap();
+    let small = || source(Grid::new(4, 2, Margin::NONE, vec![0; 2].leak()).unwrap(), 8, 2).unwrap();
     let mut sources = Sources::new(&mut layers, shown(grid)).unwrap();
     let (mut wider_one, mut small_one) = (wider(), small());
     assert_eq!(said(sources.replace(0, &mut wider_one)), differ);
@@ -63,7 +63,7 @@ fn each_error_of_setup_says_what_to_do() {
     assert!(sources.replace(2, &mut wider_one).is_ok() && *wider_one.map().grid() == *wider().map().grid());
     assert!(sources.replace(1, &mut small_one).is_ok());
     assert_eq!((small_one.map().grid(), sources.layers()[1].map().grid().cells()), (&other, 8));
-    let mut layers = [source(grid, 36, 5).unwrap(), wider()];
+    let mut layers = [source(grid, 36, 6).unwrap(), wider()];
     assert_eq!(said(Sources::new(&mut layers, shown(grid))), wide);
 }
 
@@ -75,7 +75,8 @@ fn there_are_not_more_samples_than_numbers() {
         let mut starts = vec![0; height as usize];
         let grid = Grid::new(2048, height, Margin::NONE, &mut starts).unwrap();
         let cells = grid.cells() as usize;
-        let mut memory: Vec<_> = (0..layers).map(|_| [vec![0; cells], vec![0; cells], vec![0; cells / 8]]).collect();
+        let mut memory: Vec<_> =
+            (0..layers).map(|_| [vec![0; cells], vec![0; cells], vec![0; cells / 8 + 1]]).collect();
         let mut layers: Vec<_> = memory
             .iter_mut()
             .map(|[map, displacements, links]| {
