@@ -105,8 +105,8 @@ impl<'p, F: Format> Source<'p, F> {
         self.links().of(cell)
     }
 
-    pub(crate) const fn links(&self) -> Links<'_> {
-        let (words, _) = self.links.split_at(links::pair_words(self.map.grid()));
+    pub(crate) fn links(&self) -> Links<'_> {
+        let words = self.links.get(..links::pair_words(self.map.grid())).unwrap_or_default();
         Links { words, width: self.map.grid().width() }
     }
 

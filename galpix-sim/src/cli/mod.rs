@@ -2,6 +2,7 @@
 
 mod budget;
 mod call;
+mod check;
 mod choices;
 mod compare;
 mod ddoc;
@@ -90,6 +91,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Loads a source and says what was read: motion, depth, the first frame, all keys and notes
+    Check(check::Check),
     /// Two runs side by side, as their JSON says: two budgets, two fills, two versions
     Compare(compare::Compare),
     /// Error against run time over budgets, fields, roundings and fill modes: tables, plots, the Pareto front
@@ -135,6 +138,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Check(check) => check.run(),
         Command::Compare(compare) => compare.run(),
         Command::Error(error) => error.run(),
         Command::Fills(fills) => fills.run(),

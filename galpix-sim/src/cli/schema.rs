@@ -7,13 +7,14 @@ use schemars::{JsonSchema, Schema as Derived};
 use super::document::Failure;
 use super::{CliError, budget, print, scenes, vectors};
 use crate::send;
-use crate::study::{self, Headed, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
+use crate::study::{self, Headed, check, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
 
 /// A kind of document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
     Demo,
     Run,
+    Check,
     Compare,
     Error,
     Fills,
@@ -44,6 +45,7 @@ impl Schema {
         let schema = match self.kind {
             Kind::Demo => of::<study::Document<study::NoExtra, demo::Demonstration>>(),
             Kind::Run => of::<Headed<'_, run::RunReport>>(),
+            Kind::Check => of::<Headed<'_, check::CheckReport>>(),
             Kind::Compare => of::<Headed<'_, compare::Comparison>>(),
             Kind::Error => of::<error::Document>(),
             Kind::Fills => of::<fills::Document>(),

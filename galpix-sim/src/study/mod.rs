@@ -10,6 +10,7 @@
 //! [`ink`], [`job`], [`run`], [`story`] and [`timing`].
 
 pub mod cells;
+pub mod check;
 pub mod compare;
 pub mod crops;
 pub mod ddoc;

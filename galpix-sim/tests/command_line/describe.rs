@@ -19,6 +19,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
         ("plan", [&["plan", "still", "--max-error", "0.5"][..], &small].concat()),
         ("stability", vec!["stability", "one-cell", "--json"]),
         ("scenes", vec!["scenes", "--json"]),
+        ("check", vec!["check", "still", "--json"]),
     ] {
         let document = json(folder.path(), &arguments);
         let call = document["command"].as_str().expect("the call");

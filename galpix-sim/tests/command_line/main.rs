@@ -1,6 +1,7 @@
 //! The program as a user or a script meets it: exit codes, both outputs, and the files that it leaves.
 
 mod budget;
+mod check;
 mod ddoc;
 mod demo;
 mod describe;

@@ -7,8 +7,8 @@ mod vectors;
 use std::fmt;
 use std::path::Path;
 
-use serde::Deserialize;
 use serde::de::{self, MapAccess, Visitor, value::MapAccessDeserializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 pub(super) use camera::{Axes, Camera, PoseFormat, Quaternion, Transform};
 pub(super) use hidden::{Hidden, View, Views};
@@ -21,7 +21,7 @@ use super::source::Source;
 const MAX_FRAMES: u32 = 65_535;
 
 /// A whole manifest.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Manifest {
     /// Default: the folder's name.
@@ -36,7 +36,7 @@ pub(super) struct Manifest {
 }
 
 /// `[update]`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Update {
     pub color: Color,
@@ -55,14 +55,14 @@ pub(super) struct Update {
 }
 
 /// `overlay = { file }`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Overlay {
     pub file: String,
 }
 
 /// `[[truth]]`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Truth {
     pub frame: u32,
@@ -72,14 +72,14 @@ pub(super) struct Truth {
 }
 
 /// A file's name, or `{ file, channel }`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(super) struct Color {
     pub file: String,
     pub channel: Option<String>,
 }
 
 /// `depth = { kind, … }`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum Depth {
     /// Along the optical axis.
@@ -112,12 +112,12 @@ impl Depth {
 }
 
 /// A kind without further keys.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Nothing {}
 
 /// A map of one number per pixel: `sign * scale * raw + offset`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
     pub file: String,
@@ -148,7 +148,7 @@ pub(super) struct Map {
 }
 
 /// How the numbers of a map are packed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum MapFormat {
     /// One number per pixel, as stored in the file.
@@ -165,7 +165,7 @@ pub(super) enum MapFormat {
 }
 
 /// Which row a file stores first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Rows {
     TopDown,
@@ -173,7 +173,7 @@ pub(super) enum Rows {
 }
 
 /// Raw values that mean "unknown": one number or a list.
-#[derive(Clone, Debug, Default, Deserialize)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
 #[serde(from = "OneOrMany")]
 pub(super) struct Invalid(pub Vec<f64>);
 
@@ -201,7 +201,7 @@ impl From<OneOrMany> for Invalid {
 }
 
 /// `motion = { kind, … }`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(super) enum Motion {
     Disparity(DisparityMotion),
@@ -227,7 +227,7 @@ impl Motion {
 }
 
 /// Horizontal motion of `sign * raw * scale` pixels in `frames` display frames.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DisparityMotion {
     pub file: String,
@@ -264,7 +264,7 @@ enum AccelerationTable {
 }
 
 /// How an infinitely far cell moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Background {
     Still,
@@ -330,7 +330,29 @@ impl<'de> Deserialize<'de> for Acceleration {
     }
 }
 
+impl Serialize for Acceleration {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        #[serde(tag = "kind", rename_all = "kebab-case")]
+        enum Table<'v> {
+            NextFlow(&'v Vectors),
+        }
+        match self {
+            Self::No => serializer.serialize_bool(false),
+            Self::AsMotion => serializer.serialize_bool(true),
+            Self::NextFlow(vectors) => Table::NextFlow(vectors).serialize(serializer),
+        }
+    }
+}
+
 impl Manifest {
+    /// Returns the manifest as it was read, with what its keys are where they are not given.
+    pub fn resolved(&self, name: &str) -> String {
+        let mut manifest = Self { name: Some(name.to_owned()), ..self.clone() };
+        manifest.update.background = Some(self.update.background());
+        toml::to_string(&manifest).unwrap_or_default()
+    }
+
     /// Reads and checks a manifest.
     pub fn read(path: &Path) -> Result<Self, CaptureError> {
         let source = Source::open(path)?;

@@ -101,6 +101,8 @@ pub struct Capture {
     pub truths: Vec<Truth>,
     /// What was known.
     pub census: Census,
+    /// The manifest as it was read, in TOML: with the values of all keys that have one, given or not.
+    pub resolved: String,
 }
 
 /// A capture while it is read: its manifest, where its files are, and what is known of its first layer.
@@ -157,7 +159,9 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     plausible::check(opened, &update, &truths, &mut census)
         .map_err(|(what, hint)| CaptureError::new(&path, what, hint))?;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
-    Ok(Capture { name, about: manifest.about.clone(), frames: manifest.frames, update, hidden, truths, census })
+    let resolved = manifest.resolved(&name);
+    let (about, frames) = (manifest.about.clone(), manifest.frames);
+    Ok(Capture { name, about, frames, update, hidden, truths, census, resolved })
 }
 
 /// Returns the motion of each cell with its acceleration, as the manifest and the user want it.

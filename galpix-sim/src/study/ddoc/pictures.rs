@@ -8,6 +8,7 @@ use super::world::World;
 use crate::output::film::magnified;
 use crate::picture::Picture;
 use crate::source::ddoc::raster::Raster;
+use crate::study::ink;
 
 /// Columns and rows of the magnified part of a frame.
 const PART: usize = 44;
@@ -78,18 +79,7 @@ fn whitened(frame: &Raster<3>, missing: &[bool]) -> Picture {
 fn directions(ddoc: &Ddoc) -> Picture {
     let Raster { width, height, .. } = ddoc.image.raster;
     let longest = ddoc.map.iter().map(|[x, y]| x.hypot(*y)).fold(1e-9, f64::max);
-    let colour = |&[x, y]: &[f64; 2]| {
-        let length = x.hypot(y);
-        if length == 0.0 {
-            return [96; 3];
-        }
-        let angle = y.atan2(x);
-        let strength = 0.35 + 0.65 * length / longest;
-        [0.0, 1.0, 2.0].map(|third| {
-            let hue = 0.5 + 0.5 * (angle - third * std::f64::consts::TAU / 3.0).cos();
-            (255.0 * (1.0 - strength + strength * hue)).round() as u8
-        })
-    };
+    let colour = |vector: &[f64; 2]| ink::direction(*vector, longest);
     Picture { width, height, pixels: ddoc.map.iter().map(colour).collect() }
 }
 

@@ -1,11 +1,11 @@
 //! `motion = { kind = "camera", … }` and `[update.camera]`.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{frames, one_frame, positive};
 
 /// A camera's path.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(in super::super) struct Camera {
     /// `fx fy cx cy` in pixels; may be left out where the poses' file has them (`transforms`, `colmap`).
@@ -33,7 +33,7 @@ pub(in super::super) struct Camera {
 }
 
 /// Layout of a file of poses.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum PoseFormat {
     Log,
@@ -50,7 +50,7 @@ pub(in super::super) enum PoseFormat {
 }
 
 /// What a file's poses map to what.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum Transform {
     CameraToWorld,
@@ -58,7 +58,7 @@ pub(in super::super) enum Transform {
 }
 
 /// The order of a quaternion's numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum Quaternion {
     Xyzw,
@@ -66,7 +66,7 @@ pub(in super::super) enum Quaternion {
 }
 
 /// How the camera's own axes lie.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum Axes {
     /// x right, y down, z forward.

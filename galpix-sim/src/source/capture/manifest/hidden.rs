@@ -1,6 +1,6 @@
 //! `[update.hidden]`: what is known behind the update's samples.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Color, Depth, Manifest, Map, Motion};
 use crate::source::hidden::SEPARATION;
@@ -9,7 +9,7 @@ use crate::source::hidden::SEPARATION;
 const MAX_VIEWS: usize = 64;
 
 /// Where the hidden samples come from.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub(in super::super) enum Hidden {
     /// A second layer of depth, over the same pixels.
@@ -18,7 +18,7 @@ pub(in super::super) enum Hidden {
     Views(Views),
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(in super::super) struct Layer {
     pub color: Color,
@@ -28,7 +28,7 @@ pub(in super::super) struct Layer {
     pub motion: Option<Motion>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(in super::super) struct Views {
     pub views: Vec<View>,
@@ -38,7 +38,7 @@ pub(in super::super) struct Views {
 }
 
 /// A picture from elsewhere, with the intrinsics and the file of poses of the update's motion.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(in super::super) struct View {
     /// Its number among the poses.

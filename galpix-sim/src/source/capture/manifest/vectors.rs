@@ -1,11 +1,11 @@
 //! `motion = { kind = "flow" | "planes" | "blender-vector" | "space-warp", … }`: a vector for each pixel.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Invalid, Rows, frames, one_frame};
 
 /// Vectors: `(scale * raw + offset) * sign`, in `units`.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(in super::super) struct Vectors {
     pub file: String,
@@ -41,7 +41,7 @@ pub(in super::super) struct Vectors {
 }
 
 /// One number for all components, or one for each of the first ones.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(untagged, expecting = "a number or a list of two to four numbers is wanted")]
 pub(in super::super) enum OneOrEach {
     One(f64),
@@ -71,7 +71,7 @@ impl OneOrEach {
 }
 
 /// Where y grows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum Upward {
     Down,
@@ -79,7 +79,7 @@ pub(in super::super) enum Upward {
 }
 
 /// What a vector of length 1 spans.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(in super::super) enum Units {
     /// A pixel of the file.
