@@ -20,8 +20,8 @@ pub(crate) const FIRST: u32 = 0b01;
 /// The second of two samples is nearer.
 pub(crate) const SECOND: u32 = 0b10;
 
-/// Returns the words of the links of a grid: those of the pairs, and one that says whether its rims are mixed, see
-/// [`are_mixed`](super::gather::are_mixed).
+/// Returns the words of the links of a grid: those of the pairs, and one that says whether a renderer mixed the colours
+/// at silhouettes.
 #[must_use]
 pub const fn words(grid: &Grid<'_>) -> usize {
     pair_words(grid) + 1

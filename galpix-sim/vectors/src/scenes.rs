@@ -243,7 +243,9 @@ impl Scene {
                     let [from, to] = [behind, near_colour].map(|colour: [u8; 3]| i32::from(colour[channel]));
                     ((from * (8 - part) + to * part) / 8) as u8
                 });
-                Sample { depth: behind_depth, speed: [-200, 0], colour: mixed, ..plain }
+                // Here by whole cells, there not.
+                let speed = [if x / 8 % 2 == 0 { -256 } else { -200 }, 0];
+                Sample { depth: behind_depth, speed, colour: mixed, ..plain }
             }
             Self::Steps => {
                 let depth = [0x4000, 0x4000, 0x9000][(x / 4 % 3) as usize];

@@ -88,7 +88,6 @@ fn what_is_beyond_the_budget_is_left_out_and_counted() {
                 let stretched = sources.layers.iter().flat_map(|layer| {
                     let grid = *layer.map.grid();
                     let (columns, rows) = (grid.width() - 1, grid.height() as usize - 1);
-                    let layer = &*layer;
                     let of = move |start: u32| {
                         (start..start + columns).filter(|&cell| quads::stretched(layer, cell) != 0).count() as u32
                     };
