@@ -137,8 +137,7 @@ impl<'p, 'l, F: Format> Sources<'p, 'l, F> {
     /// counts how much of what is rare was left out, because it was beyond the budget: quads that were not drawn, and
     /// cells that were not looked at for cracks. If that is 0, the frame is that of [`Self::step`], bit by bit.
     ///
-    /// *Cost:* each quad and each crack of the budget takes about as many instructions as four samples, see
-    /// `docs/notes/sources.md`.
+    /// *Cost:* each quad and each crack of the budget takes about as many instructions as four samples.
     pub fn step_constant_time(&mut self, settings: &Settings, budget: &Budget) -> (Tally, u32) {
         let frame = self.frame;
         self.frame = self.frame.wrapping_add(1);
