@@ -96,6 +96,17 @@ impl Source {
         }
     }
 
+    /// Returns those of the first `frames` frames whose true picture is known, in their order; none is rendered.
+    #[must_use]
+    pub fn truth_frames(&self, frames: u32) -> Vec<u32> {
+        match self {
+            Self::Scene(_) => (1..=frames).collect(),
+            Self::Capture(capture) => {
+                capture.truths.iter().map(|truth| truth.frame).filter(|frame| (1..=frames).contains(frame)).collect()
+            }
+        }
+    }
+
     /// Returns what was known of the cells of a capture.
     #[must_use]
     pub fn census(&self) -> Option<&Census> {

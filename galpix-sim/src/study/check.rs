@@ -114,7 +114,7 @@ pub fn check(source: &Source) -> Result<CheckReport, ExperimentError> {
     let update = source.update();
     let known = || update.samples.iter().filter(|sample| sample.known == Known::Motion);
     let spread = |of: &dyn Fn(&crate::update::Sample) -> f64| Spread::of(known().map(of).collect());
-    let truths: Vec<u32> = (1..=source.frames()).filter(|&frame| source.truth(frame).is_some()).collect();
+    let truths = source.truth_frames(source.frames());
     let first = match truths.first() {
         Some(&frame) => {
             let request = Request { frames: Some(frame), perceptual: false, ..Request::default() };
@@ -148,7 +148,7 @@ pub fn check(source: &Source) -> Result<CheckReport, ExperimentError> {
         notes: source.census().map(|census| census.notes.clone()).unwrap_or_default(),
         manifest: match source {
             Source::Scene(_) => None,
-            Source::Capture(capture) => Some(capture.resolved.clone()),
+            Source::Capture(capture) => Some(capture.resolved()),
         },
     })
 }

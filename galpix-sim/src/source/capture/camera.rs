@@ -57,21 +57,26 @@ impl View {
     }
 }
 
+/// Returns the point that a pixel shows, in camera axes, and its weight: 1, or 0 for a direction, which is all that is
+/// known of a far one. `None` where the depth is unknown.
+fn point([x, y]: [f64; 2], distance: &Distance, [fx, fy, cx, cy]: [f64; 4]) -> Option<([f64; 3], f64)> {
+    let ray = [(x - cx) / fx, (y - cy) / fy, 1.0];
+    match *distance {
+        Distance::Unknown => None,
+        Distance::Far => Some((ray, 0.0)),
+        Distance::At(z) => Some((ray.map(|v| v * z), 1.0)),
+    }
+}
+
 /// Returns the motion of each sample, `None` where the depth is unknown or the point is behind one of the cameras.
 ///
 /// `frames`: display frames between two poses. Far points are directions: they turn with the camera and do not
 /// approach.
 pub(super) fn tracks(path: &Path3, frames: f64, size: Size, distances: &[Distance]) -> Vec<Option<Track>> {
     let views: Vec<(View, [f64; 4])> = path.others.iter().map(|other| other.seen_from(&path.now)).collect();
-    let [fx, fy, cx, cy] = path.intrinsics;
     let track = |((x, y), distance): ((usize, usize), &Distance)| {
         let (x, y) = (x as f64, y as f64);
-        let ray = [(x - cx) / fx, (y - cy) / fy, 1.0];
-        let (point, weight) = match *distance {
-            Distance::Unknown => return None,
-            Distance::Far => (ray, 0.0),
-            Distance::At(z) => (ray.map(|v| v * z), 1.0),
-        };
+        let (point, weight) = point([x, y], distance, path.intrinsics)?;
         let moved = |(view, [fx, fy, cx, cy]): &(View, [f64; 4])| {
             let [px, py, pz] = view.apply(point, weight);
             (pz > 0.0).then(|| [cx + fx * px / pz - x, cy + fy * py / pz - y, weight * (pz - point[2])])
@@ -148,12 +153,7 @@ fn speed(path: &Path3, other: &Other, size: Size, distances: &[Distance]) -> Opt
         .step_by(every)
         .filter_map(|((x, y), distance)| {
             let (x, y) = (x as f64, y as f64);
-            let ray = [(x - cx) / fx, (y - cy) / fy, 1.0];
-            let (point, weight) = match *distance {
-                Distance::Unknown => return None,
-                Distance::Far => (ray, 0.0),
-                Distance::At(z) => (ray.map(|v| v * z), 1.0),
-            };
+            let (point, weight) = point([x, y], distance, path.intrinsics)?;
             let [px, py, pz] = view.apply(point, weight);
             let off = (cx + fx * px / pz - x).hypot(cy + fy * py / pz - y) / other.steps.abs();
             Some(if pz > 0.0 { off } else { f64::INFINITY })

@@ -101,8 +101,15 @@ pub struct Capture {
     pub truths: Vec<Truth>,
     /// What was known.
     pub census: Census,
-    /// The manifest as it was read, in TOML: with the values of all keys that have one, given or not.
-    pub resolved: String,
+    manifest: Manifest,
+}
+
+impl Capture {
+    /// Returns the manifest as it was read, in TOML: with the values of all keys that have one, given or not.
+    #[must_use]
+    pub fn resolved(&self) -> String {
+        self.manifest.resolved(&self.name)
+    }
 }
 
 /// A capture while it is read: its manifest, where its files are, and what is known of its first layer.
@@ -159,9 +166,8 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     plausible::check(opened, &update, &truths, &mut census)
         .map_err(|(what, hint)| CaptureError::new(&path, what, hint))?;
     let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
-    let resolved = manifest.resolved(&name);
     let (about, frames) = (manifest.about.clone(), manifest.frames);
-    Ok(Capture { name, about, frames, update, hidden, truths, census, resolved })
+    Ok(Capture { name, about, frames, update, hidden, truths, census, manifest })
 }
 
 /// Returns the motion of each cell with its acceleration, as the manifest and the user want it.

@@ -66,12 +66,7 @@ impl<'s> Reference<'s> {
         let Job { source, frames, .. } = *job;
         let mut reference = Self::with_update(source, job.update.clone(), frames);
         let pictures = (PIXELS / reference.hold.pixels.len().max(1)).clamp(1, MOST_PICTURES);
-        let known: Vec<u32> = match source {
-            Source::Scene(_) => (1..=frames).collect(),
-            Source::Capture(capture) => {
-                capture.truths.iter().map(|truth| truth.frame).filter(|frame| (1..=frames).contains(frame)).collect()
-            }
-        };
+        let known = source.truth_frames(frames);
         let reported = spread(&known, pictures);
         // With all that the update has, as `galpix run` has it.
         let whole = Job::resolve(source, &job.request)?.with_scheme(Scheme::Map).with_fill(FillMode::None.into());
