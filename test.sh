@@ -14,7 +14,7 @@ export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package fuzz firmware)
 QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
@@ -69,6 +69,7 @@ step_format() {
     cargo fmt --version >/dev/null 2>&1 || { skip "rustfmt is not installed"; return; }
     cargo fmt --all -- --check
     cargo fmt --manifest-path tests/codegen/Cargo.toml -- --check
+    cargo fmt --manifest-path tests/fuzz/Cargo.toml -- --check
     bash -n tests/proofs/run.sh
 }
 
@@ -196,6 +197,14 @@ step_package() {
     else
         skip "the package is complete, but cargo-deny is not installed: cargo install cargo-deny"
     fi
+}
+
+# Two minutes of cases made by a coverage-guided fuzzer, for each importer.
+step_fuzz() {
+    local status=0
+    tests/fuzz/run.sh 120 || status=$?
+    [ "$status" != 3 ] || { skip "the fuzzer cannot be built here, see above"; return; }
+    return "$status"
 }
 
 # The firmware in the emulator: build for each board, run, compare with the simulator.

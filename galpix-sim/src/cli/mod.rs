@@ -14,6 +14,7 @@ mod error;
 mod fills;
 mod graft;
 mod hidden;
+mod init;
 mod layers;
 mod plan;
 mod progress;
@@ -91,6 +92,8 @@ enum Command {
     Demo(demo::Demo),
     /// Extrapolates one update of a scene or a capture, writes each frame and compares it with the truth
     Run(run::Run),
+    /// Writes a capture.toml for a folder of files that has none
+    Init(init::Init),
     /// Loads a source and says what was read: motion, depth, the first frame, all keys and notes
     Check(check::Check),
     /// Two runs side by side, as their JSON says: two budgets, two fills, two versions
@@ -138,6 +141,7 @@ pub fn main() -> ExitCode {
     let result = match arguments.command.unwrap_or(Command::Demo(demo::Demo::default())) {
         Command::Demo(demo) => demo.run(),
         Command::Run(run) => run.run(),
+        Command::Init(init) => init.run(),
         Command::Check(check) => check.run(),
         Command::Compare(compare) => compare.run(),
         Command::Error(error) => error.run(),

@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema as Derived};
 
 use super::document::Failure;
-use super::{CliError, budget, print, scenes, vectors};
+use super::{CliError, budget, init, print, scenes, vectors};
 use crate::send;
 use crate::study::{self, Headed, check, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
 
@@ -15,6 +15,7 @@ pub enum Kind {
     Demo,
     Run,
     Check,
+    Init,
     Compare,
     Error,
     Fills,
@@ -46,6 +47,7 @@ impl Schema {
             Kind::Demo => of::<study::Document<study::NoExtra, demo::Demonstration>>(),
             Kind::Run => of::<Headed<'_, run::RunReport>>(),
             Kind::Check => of::<Headed<'_, check::CheckReport>>(),
+            Kind::Init => of::<Headed<'_, init::Initialised>>(),
             Kind::Compare => of::<Headed<'_, compare::Comparison>>(),
             Kind::Error => of::<error::Document>(),
             Kind::Fills => of::<fills::Document>(),

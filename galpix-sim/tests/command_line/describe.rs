@@ -4,6 +4,9 @@ use serde_json::Value;
 
 use crate::{done, entries, folder, json, output, refused, text};
 
+/// The capture that comes with the program.
+const MARBLES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../captures/marbles");
+
 #[test]
 fn every_document_has_a_head_and_the_keys_of_its_schema() {
     let folder = folder();
@@ -20,6 +23,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
         ("stability", vec!["stability", "one-cell", "--json"]),
         ("scenes", vec!["scenes", "--json"]),
         ("check", vec!["check", "still", "--json"]),
+        ("init", vec!["init", MARBLES, "--print", "--json"]),
     ] {
         let document = json(folder.path(), &arguments);
         let call = document["command"].as_str().expect("the call");

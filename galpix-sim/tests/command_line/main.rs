@@ -9,6 +9,7 @@ mod error;
 mod fills;
 mod folders;
 mod graft;
+mod init;
 mod layers;
 mod plan;
 mod run;

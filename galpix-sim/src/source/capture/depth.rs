@@ -1,9 +1,8 @@
 //! The depth of an update as the manifest describes it.
 
-use std::path::Path;
-
 use super::camera::Distance;
 use super::error::CaptureError;
+use super::folder::Folder;
 use super::manifest::{Depth, Map, Update};
 use super::poses;
 use super::raster::{self, Canvas, Fitted, Layout};
@@ -16,7 +15,7 @@ use super::source::Source;
 pub(super) fn read(
     depth: &Depth,
     update: &Update,
-    folder: &Path,
+    folder: Folder<'_>,
     canvas: &mut Canvas<'_>,
 ) -> Result<Option<Vec<Distance>>, CaptureError> {
     let Some(map) = depth.map() else { return Ok(None) };
@@ -56,9 +55,9 @@ pub(super) fn read(
     let usual = Usual::of(&numbers, map);
     if distances.iter().all(|distance| *distance == Distance::Unknown) {
         let (what, hint) = usual.nothing(depth, numbers.len());
-        return Err(CaptureError::new(&folder.join(&map.file), what, hint));
+        return Err(CaptureError::new(&folder.path(&map.file), what, hint));
     }
-    let source = Source { path: folder.join(&map.file), bytes: Vec::new() };
+    let source = Source { path: folder.path(&map.file), bytes: Vec::new() };
     usual.remarks(depth, numbers.len()).iter().for_each(|note| canvas.note(&source, note));
     Ok(Some(distances))
 }
@@ -165,7 +164,7 @@ fn farthest(sorted: &[f64]) -> Option<usize> {
 }
 
 /// Returns the distances of a map along the optical axis.
-pub(super) fn planar(map: &Map, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Vec<Distance>, CaptureError> {
+pub(super) fn planar(map: &Map, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Vec<Distance>, CaptureError> {
     Ok(read_map(map, folder, canvas)?.iter().map(|number| number.distance(map)).collect())
 }
 
@@ -176,7 +175,7 @@ struct Number {
     stretch: f64,
 }
 
-fn read_map(map: &Map, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Vec<Number>, CaptureError> {
+fn read_map(map: &Map, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Vec<Number>, CaptureError> {
     let layout = Layout {
         channel: map.channel.as_deref(),
         format: map.format,
@@ -184,11 +183,11 @@ fn read_map(map: &Map, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Vec<Num
         resize: map.resize,
         ..Layout::default()
     };
-    let Fitted { mut bands, stretch } = raster::numbers(&Source::open(&folder.join(&map.file))?, &layout, canvas)?;
+    let Fitted { mut bands, stretch } = raster::numbers(&folder.open(&map.file)?, &layout, canvas)?;
     let mut numbers = bands.swap_remove(0);
     if let Some(file) = &map.mask {
         let layout = Layout { rows: map.rows, resize: map.resize, ..Layout::default() };
-        let mask = raster::mask(&Source::open(&folder.join(file))?, &layout, canvas)?;
+        let mask = raster::mask(&folder.open(file)?, &layout, canvas)?;
         for (number, _) in numbers.iter_mut().zip(mask).filter(|(_, known)| !known) {
             *number = f64::NAN;
         }
@@ -197,13 +196,18 @@ fn read_map(map: &Map, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Vec<Num
 }
 
 /// Returns `fx fy cx cy` of the update's camera.
-fn intrinsics(map: &Map, update: &Update, folder: &Path, canvas: &mut Canvas<'_>) -> Result<[f64; 4], CaptureError> {
+fn intrinsics(
+    map: &Map,
+    update: &Update,
+    folder: Folder<'_>,
+    canvas: &mut Canvas<'_>,
+) -> Result<[f64; 4], CaptureError> {
     match (map.intrinsics, update.viewer()) {
         (Some(intrinsics), _) => Ok(intrinsics),
         (None, Some(camera)) => Ok(poses::read(camera, folder, canvas.size)?.intrinsics),
         (None, None) => {
             let hint = "add intrinsics = [fx, fy, cx, cy] to the depth, or an [update.camera]";
-            Err(CaptureError::new(&folder.join(&map.file), "holds distances that need the camera's intrinsics", hint))
+            Err(CaptureError::new(&folder.path(&map.file), "holds distances that need the camera's intrinsics", hint))
         }
     }
 }

@@ -96,6 +96,19 @@ impl<'a> Planes<'a> {
         if let [only] = &self.channels[..] { Some(&only.name) } else { None }
     }
 
+    /// Returns the names of all channels, with their parts' where they say nothing of a pass themselves.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.channels.iter().map(|channel| match &channel.in_part {
+            Some(in_part) if !channel.name.contains('.') => in_part.as_str(),
+            _ => channel.name.as_str(),
+        })
+    }
+
+    /// Returns the values of a channel as they stand there; nothing if there is none of this name, or more than one.
+    pub fn values(&self, name: &str) -> Option<Vec<f64>> {
+        Some(self.channel(name).ok()?.samples.values_as_f32().map(f64::from).collect())
+    }
+
     /// Returns whether `name` names a channel; ambiguous counts as yes.
     pub fn has(&self, name: &str) -> bool {
         !self.candidates(name).is_empty()

@@ -1,13 +1,12 @@
 //! The hidden samples of a capture: a second layer over the same pixels, or what pictures from other places show.
 
-use std::path::Path;
-
 use super::camera::{Distance, View as Between};
 use super::error::CaptureError;
+use super::folder::Folder;
 use super::manifest::{Acceleration, Camera, Hidden, Motion, View, Views};
 use super::raster::Canvas;
 use super::samples::{self, Unit};
-use super::source::{Size, Source};
+use super::source::Size;
 use super::{Census, ImportOptions, Opened, acceleration, colour, depth, motion, poses};
 use crate::picture::Picture;
 use crate::update::{Known, Update};
@@ -32,7 +31,7 @@ pub(super) fn read(
     let (picture, distances) = match hidden {
         Hidden::Layer(layer) => {
             let channel = layer.color.channel.as_deref().or(layer.channel.as_deref());
-            let file = Source::open(&folder.join(&layer.color.file))?;
+            let file = folder.open(&layer.color.file)?;
             let picture = colour::read(&file, channel, Some(size), &mut own.notes)?;
             behind.update.depth = layer.depth.clone();
             if let Some(motion) = &layer.motion {
@@ -128,9 +127,13 @@ fn seen_from_elsewhere(
     Ok((picture, nearest))
 }
 
-fn read_view(view: &View, folder: &Path, canvas: &mut Canvas<'_>) -> Result<(Picture, Vec<Distance>), CaptureError> {
+fn read_view(
+    view: &View,
+    folder: Folder<'_>,
+    canvas: &mut Canvas<'_>,
+) -> Result<(Picture, Vec<Distance>), CaptureError> {
     let channel = view.color.channel.as_deref().or(view.channel.as_deref());
-    let file = Source::open(&folder.join(&view.color.file))?;
+    let file = folder.open(&view.color.file)?;
     let colours = colour::read(&file, channel, Some(canvas.size), canvas.notes)?;
     Ok((colours, depth::planar(&view.depth, folder, canvas)?))
 }

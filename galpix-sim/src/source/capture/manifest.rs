@@ -5,7 +5,6 @@ mod hidden;
 mod vectors;
 
 use std::fmt;
-use std::path::Path;
 
 use serde::de::{self, MapAccess, Visitor, value::MapAccessDeserializer};
 use serde::{Deserialize, Serialize, Serializer};
@@ -354,10 +353,9 @@ impl Manifest {
     }
 
     /// Reads and checks a manifest.
-    pub fn read(path: &Path) -> Result<Self, CaptureError> {
-        let source = Source::open(path)?;
+    pub fn read(source: &Source) -> Result<Self, CaptureError> {
         let text = source.text()?;
-        let mut manifest: Self = toml::from_str(text).map_err(|e| syntax(&source, text, &e))?;
+        let mut manifest: Self = toml::from_str(text).map_err(|e| syntax(source, text, &e))?;
         manifest.truth.sort_by_key(|truth| truth.frame);
         manifest.check().map_err(|(what, hint)| source.fault(what, hint))?;
         Ok(manifest)

@@ -17,7 +17,9 @@ mod dpt;
 mod error;
 mod exr_planes;
 mod flo;
+mod folder;
 mod hidden;
+mod init;
 mod manifest;
 mod mixed;
 mod motion;
@@ -40,15 +42,21 @@ use serde::Serialize;
 
 pub use acceleration::AccelerationPolicy;
 pub use error::CaptureError;
+pub use folder::Files;
+pub use init::{InitOptions, Proposal, init};
 
 use crate::picture::Picture;
 use crate::update::{Truth, Update};
 use camera::{Distance, Track};
 use coarse::Steps;
+use folder::Folder;
 use manifest::Manifest;
 use raster::Canvas;
 use source::{Size, Source};
 use vectors::Moved;
+
+/// The manifest's name in its folder.
+const MANIFEST: &str = "capture.toml";
 
 /// How a capture is imported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -116,10 +124,9 @@ impl Capture {
 #[derive(Clone, Copy)]
 struct Opened<'c> {
     manifest: &'c Manifest,
-    folder: &'c Path,
+    folder: Folder<'c>,
     size: Size,
-    /// Of each cell; nothing if there is no depth at all.
-    distances: &'c Option<Vec<Distance>>,
+    distances: &'c Distances,
 }
 
 /// Reads a colour picture of a capture: PNG, JPEG, or EXR with plain or `Combined` colours.
@@ -133,13 +140,42 @@ pub fn picture(file: &Path) -> Result<Picture, CaptureError> {
 ///
 /// *Errors:* anything that cannot be read, does not fit together, or is not named in the format; see the module's text.
 pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, CaptureError> {
-    let path = if manifest.is_dir() { manifest.join("capture.toml") } else { manifest.to_path_buf() };
-    let manifest = Manifest::read(&path)?;
-    let folder = path.parent().unwrap_or(Path::new("."));
+    let path = if manifest.is_dir() { manifest.join(MANIFEST) } else { manifest.to_path_buf() };
+    checked(&Source::open(&path)?, Folder::on_disk(path.parent().unwrap_or(Path::new("."))), options)
+}
+
+/// Reads a capture whose files are in memory; its manifest is the file `capture.toml`.
+///
+/// *Errors:* as of [`load`].
+pub fn load_files(files: &Files, options: &ImportOptions) -> Result<Capture, CaptureError> {
+    let folder = Folder::in_memory(files);
+    checked(&folder.open(MANIFEST)?, folder, options)
+}
+
+/// Reads what a manifest names, and adds what its plausibility gives cause to remark.
+fn checked(source: &Source, folder: Folder<'_>, options: &ImportOptions) -> Result<Capture, CaptureError> {
+    let (mut capture, distances) = assembled(source, folder, options)?;
+    let Capture { manifest, update, truths, census, .. } = &mut capture;
+    let size = Size { width: update.width, height: update.height };
+    let opened = Opened { manifest, folder, size, distances: &distances };
+    plausible::check(opened, update, truths, census).map_err(|(what, hint)| source.fault(what, hint))?;
+    Ok(capture)
+}
+
+/// The distance of each cell; nothing if there is no depth at all.
+type Distances = Option<Vec<Distance>>;
+
+/// Reads what a manifest names.
+fn assembled(
+    source: &Source,
+    folder: Folder<'_>,
+    options: &ImportOptions,
+) -> Result<(Capture, Distances), CaptureError> {
+    let manifest = Manifest::read(source)?;
     let update = &manifest.update;
     let channel = update.color.channel.as_deref().or(update.channel.as_deref());
     let mut census = Census::default();
-    let file = Source::open(&folder.join(&update.color.file))?;
+    let file = folder.open(&update.color.file)?;
     let mut picture = colour::read(&file, channel, None, &mut census.notes)?;
     let size = Size { width: picture.width, height: picture.height };
 
@@ -149,7 +185,7 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     let mut motion = moved(opened, options, &mut census)?;
     let unit = samples::Unit::of(&update.depth, &distances, &motion, &mut census.notes);
     let pinned = match &update.overlay {
-        Some(overlay) => Some(colour::overlay(&Source::open(&folder.join(&overlay.file))?, size, &mut census.notes)?),
+        Some(overlay) => Some(colour::overlay(&folder.open(&overlay.file)?, size, &mut census.notes)?),
         None => None,
     };
     if let Some(touched) = pinned.as_ref().and_then(|pinned| pinned.drawn_into(&picture)) {
@@ -163,11 +199,9 @@ pub fn load(manifest: &Path, options: &ImportOptions) -> Result<Capture, Capture
     let mut update = samples::assemble(unit, &picture, &distances, &motion, &mut census);
     update.overlay = pinned.map(|pinned| pinned.overlay);
     let truths = truths(&manifest, folder, size, &mut census)?;
-    plausible::check(opened, &update, &truths, &mut census)
-        .map_err(|(what, hint)| CaptureError::new(&path, what, hint))?;
-    let name = manifest.name.clone().unwrap_or_else(|| folder_name(folder));
+    let name = manifest.name.clone().unwrap_or_else(|| folder.name());
     let (about, frames) = (manifest.about.clone(), manifest.frames);
-    Ok(Capture { name, about, frames, update, hidden, truths, census, manifest })
+    Ok((Capture { name, about, frames, update, hidden, truths, census, manifest }, distances))
 }
 
 /// Returns the motion of each cell with its acceleration, as the manifest and the user want it.
@@ -211,15 +245,20 @@ fn moved(opened: Opened<'_>, options: &ImportOptions, census: &mut Census) -> Re
     Ok(motion)
 }
 
-fn truths(manifest: &Manifest, folder: &Path, size: Size, census: &mut Census) -> Result<Vec<Truth>, CaptureError> {
+fn truths(
+    manifest: &Manifest,
+    folder: Folder<'_>,
+    size: Size,
+    census: &mut Census,
+) -> Result<Vec<Truth>, CaptureError> {
     /// Most remarks about truths: each of them would have the same.
     const MOST_NOTES: usize = 2;
     let mut notes = Vec::new();
     let mut truth = |truth: &manifest::Truth| {
         let channel = truth.color.channel.as_deref().or(truth.channel.as_deref());
-        let picture = colour::read(&Source::open(&folder.join(&truth.color.file))?, channel, Some(size), &mut notes)?;
+        let picture = colour::read(&folder.open(&truth.color.file)?, channel, Some(size), &mut notes)?;
         let mask = match &truth.mask {
-            Some(file) => Some(colour::mask(&Source::open(&folder.join(file))?, size)?),
+            Some(file) => Some(colour::mask(&folder.open(file)?, size)?),
             None => None,
         };
         Ok(Truth { frame: truth.frame, picture, mask })
@@ -232,9 +271,4 @@ fn truths(manifest: &Manifest, folder: &Path, size: Size, census: &mut Census) -
         census.notes.push(format!("{more} more remarks of this kind about pictures of the truth"));
     }
     truths
-}
-
-fn folder_name(folder: &Path) -> String {
-    let absolute = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-    absolute.file_name().map_or_else(|| "capture".to_owned(), |name| name.to_string_lossy().into_owned())
 }

@@ -1,13 +1,12 @@
 //! The motion of an update as the manifest describes it.
 
-use std::path::Path;
-
 use super::camera::{self, Distance, Track};
 use super::coarse::{Field, Steps};
 use super::error::CaptureError;
+use super::folder::Folder;
 use super::manifest::{Background, Camera, DisparityMotion, Motion};
 use super::raster::{self, Canvas, Layout};
-use super::source::{Size, Source};
+use super::source::Size;
 use super::vectors::{self, Moved};
 use super::{Census, Opened, mixed, poses};
 
@@ -56,8 +55,8 @@ pub(super) fn read(opened: Opened<'_>, census: &mut Census) -> Result<Moved, Cap
     Ok(moved)
 }
 
-fn disparity(motion: &DisparityMotion, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
-    let source = Source::open(&folder.join(&motion.file))?;
+fn disparity(motion: &DisparityMotion, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
+    let source = folder.open(&motion.file)?;
     let layout = Layout {
         channel: motion.channel.as_deref(),
         format: motion.format,
@@ -70,7 +69,7 @@ fn disparity(motion: &DisparityMotion, folder: &Path, canvas: &mut Canvas<'_>) -
     let mask = match &motion.mask {
         Some(file) => {
             let layout = Layout { channel: None, format: Default::default(), ..layout };
-            Some(raster::mask(&Source::open(&folder.join(file))?, &layout, canvas)?)
+            Some(raster::mask(&folder.open(file)?, &layout, canvas)?)
         }
         None => None,
     };
@@ -98,7 +97,7 @@ fn from_camera(
     let mut path = poses::read(camera, folder, size)?;
     let Some(distances) = distances else {
         let hint = "give a depth map of kind \"z\", or another motion";
-        return Err(CaptureError::new(&folder.join(&camera.poses), "moves a camera past cells of unknown depth", hint));
+        return Err(CaptureError::new(&folder.path(&camera.poses), "moves a camera past cells of unknown depth", hint));
     };
     if let Some(note) = camera::leave_out_a_cut(&mut path, size, distances) {
         path.notes.push(note);

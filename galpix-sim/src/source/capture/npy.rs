@@ -70,16 +70,26 @@ pub(super) fn read(source: &Source, size: Size) -> Result<Bands, CaptureError> {
     Ok(Bands::new(size, (0..bands).map(band).collect()))
 }
 
+/// Returns the names of the arrays of an `.npz`.
+pub(super) fn names(source: &Source) -> Result<Vec<String>, CaptureError> {
+    let archive = ZipArchive::new(Cursor::new(source.bytes.as_slice())).map_err(|e| source.damaged(e))?;
+    Ok(archive.file_names().filter_map(|name| Some(bare(&name.ok()?).to_owned())).collect())
+}
+
+/// Returns a file's name without its ending.
+fn bare(file: &str) -> &str {
+    file.strip_suffix(".npy").unwrap_or(file)
+}
+
 /// Reads an array of an `.npz`: the one of this name, or the only one.
 pub(super) fn read_archive(source: &Source, name: Option<&str>, size: Size) -> Result<Bands, CaptureError> {
     let mut archive = ZipArchive::new(Cursor::new(source.bytes.as_slice())).map_err(|e| source.damaged(e))?;
     let names: Vec<String> = archive.file_names().filter_map(|name| Some(name.ok()?.into_owned())).collect();
-    let bare = |file: &String| file.strip_suffix(".npy").unwrap_or(file).to_owned();
     let wanted = match name {
         Some(name) => names.iter().find(|file| bare(file) == name || *file == name),
         None => names.first().filter(|_| names.len() == 1),
     };
-    let list = names.iter().take(24).map(bare).collect::<Vec<_>>().join(", ");
+    let list = names.iter().take(24).map(|name| bare(name)).collect::<Vec<_>>().join(", ");
     let Some(wanted) = wanted else {
         let what = match name {
             Some(name) => format!("has no array \"{name}\""),

@@ -210,6 +210,16 @@ fn of_camera(
     found
 }
 
+/// Returns the PSNR of the whole picture at a truth: the update, forward warped if `moved`, and unchanged elsewhere.
+pub(super) fn shown_db(update: &Update, truth: &Truth, moved: bool) -> Option<f64> {
+    let still = update.samples.iter().map(|sample| Some(sample.colour));
+    if !moved {
+        return Some(psnr(update, still, truth)?.0);
+    }
+    let front = front(update, &AS_READ, truth).into_iter();
+    Some(psnr(update, front.zip(still).map(|(seen, still)| seen.or(still)), truth)?.0)
+}
+
 /// Returns the PSNR of the update at a truth, over the cells that a forward warp reaches; nothing if there are few.
 #[cfg(test)]
 pub(super) fn moved_db(update: &Update, truth: &Truth) -> Option<f64> {
@@ -220,6 +230,12 @@ pub(super) fn moved_db(update: &Update, truth: &Truth) -> Option<f64> {
 fn warped(update: &Update, alternative: &Alternative, truth: &Truth) -> Option<f64> {
     /// At least this part of the picture must be reached.
     const LEAST: f64 = 0.02;
+    let (db, count) = psnr(update, front(update, alternative, truth).into_iter(), truth)?;
+    (count as f64 >= LEAST * (update.width * update.height) as f64).then_some(db)
+}
+
+/// Returns the colours that a forward warp of the update brings to a truth's cells; the nearest wins.
+fn front(update: &Update, alternative: &Alternative, truth: &Truth) -> Vec<Option<[u8; 3]>> {
     let (width, height) = (update.width, update.height);
     let size = [width as f64, height as f64];
     let t = f64::from(truth.frame);
@@ -245,9 +261,7 @@ fn warped(update: &Update, alternative: &Alternative, truth: &Truth) -> Option<f
             }
         }
     }
-    let seen = front.iter().map(|cell| cell.map(|(_, colour)| colour));
-    let (db, count) = psnr(update, seen, truth)?;
-    (count as f64 >= LEAST * (width * height) as f64).then_some(db)
+    front.into_iter().map(|cell| cell.map(|(_, colour)| colour)).collect()
 }
 
 fn stands_still(update: &Update, truth: &Truth) -> Option<f64> {

@@ -1,15 +1,13 @@
 //! Vectors of each pixel under the manifest's conventions: flows, EXR channels, Blender's pass, motion buffers.
 
-use std::path::Path;
-
 use super::camera::{self, Distance, Track};
 use super::coarse::{Field, Steps};
 use super::error::CaptureError;
 use super::exr_planes::{Planes, under};
+use super::folder::Folder;
 use super::manifest::{Depth, Map, OneOrEach, Units, Upward, Vectors};
 use super::poses::{Path3, Pose};
 use super::raster::{self, Canvas, Fitted, Flow, Layout};
-use super::source::Source;
 use super::{Opened, poses};
 
 /// The motion of each cell, and the steps in which its displacements come, in pixels per display frame.
@@ -71,8 +69,8 @@ impl Convention {
 }
 
 /// Reads a displacement for each pixel from a file of two numbers.
-pub(super) fn flow(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
-    let source = Source::open(&folder.join(&vectors.file))?;
+pub(super) fn flow(vectors: &Vectors, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
+    let source = folder.open(&vectors.file)?;
     let Flow { vectors: raw, stretch } = raster::flow(&source, &layout(vectors), canvas)?;
     let mask = mask(vectors, folder, canvas)?;
     let convention = Convention::new(vectors, Units::Pixels, Upward::Down, canvas, stretch);
@@ -94,7 +92,7 @@ pub(super) fn flow(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) ->
 /// Returns `VX VY` and, where present, `VZ AX AY AZ`, or the channels that the manifest names, each per step of
 /// `frames` display frames.
 pub(super) fn planes(vectors: &Vectors, opened: Opened<'_>, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
-    let source = Source::open(&opened.folder.join(&vectors.file))?;
+    let source = opened.folder.open(&vectors.file)?;
     let planes = Planes::read(&source)?;
     planes.note_losses(canvas);
     let prefix = vectors.channel.as_deref().unwrap_or("");
@@ -144,8 +142,8 @@ pub(super) fn planes(vectors: &Vectors, opened: Opened<'_>, canvas: &mut Canvas<
 ///
 /// With y down the displacement to the next frame is `(-Z, W)` and that from the previous one `(-X, Y)`. At the first
 /// frame of an animation, and at the last, one of the pairs is zero everywhere: then the other is the velocity.
-pub(super) fn blender(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
-    let source = Source::open(&folder.join(&vectors.file))?;
+pub(super) fn blender(vectors: &Vectors, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Moved, CaptureError> {
+    let source = folder.open(&vectors.file)?;
     let planes = Planes::read(&source)?;
     planes.note_losses(canvas);
     let prefix = vectors.channel.as_deref().unwrap_or("Vector");
@@ -199,7 +197,7 @@ pub(super) fn space_warp(
     canvas: &mut Canvas<'_>,
 ) -> Result<Moved, CaptureError> {
     let Opened { manifest, folder, distances, .. } = opened;
-    let source = Source::open(&folder.join(&vectors.file))?;
+    let source = folder.open(&vectors.file)?;
     let cells = canvas.size.cells();
     if vectors.skip == Some(true) {
         canvas.note(&source, "is to be skipped: nothing is synthesised, the update stands still");
@@ -268,7 +266,7 @@ fn by_space(
     canvas: &Canvas<'_>,
 ) -> Result<Vec<Option<Track>>, CaptureError> {
     let update = &manifest.update;
-    let fault = |what: &str, hint: &str| CaptureError::new(&folder.join(&vectors.file), what, hint);
+    let fault = |what: &str, hint: &str| CaptureError::new(&folder.path(&vectors.file), what, hint);
     let Some(distances) = distances else {
         return Err(fault("moves a space past cells of unknown depth", "give a depth map of kind \"buffer\""));
     };
@@ -296,10 +294,10 @@ fn layout(vectors: &Vectors) -> Layout<'_> {
     }
 }
 
-fn mask(vectors: &Vectors, folder: &Path, canvas: &mut Canvas<'_>) -> Result<Option<Vec<bool>>, CaptureError> {
+fn mask(vectors: &Vectors, folder: Folder<'_>, canvas: &mut Canvas<'_>) -> Result<Option<Vec<bool>>, CaptureError> {
     let Some(file) = &vectors.mask else { return Ok(None) };
     let layout = Layout { rows: vectors.rows, resize: vectors.resize, ..Layout::default() };
-    raster::mask(&Source::open(&folder.join(file))?, &layout, canvas).map(Some)
+    raster::mask(&folder.open(file)?, &layout, canvas).map(Some)
 }
 
 /// Returns the steps of raw numbers: the manifest's, else those that are found.

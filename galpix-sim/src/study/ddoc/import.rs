@@ -5,7 +5,7 @@
 //! from the left above shades its faces, for files have no texture here.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use super::view::{Colour, Corner, Place};
@@ -64,13 +64,27 @@ pub fn obj(file: &Path) -> Result<World, ImportError> {
             "give a simpler object",
         ));
     }
+    on_stage(file, &triangles(file, &mut BufReader::new(opened))?).ok_or_else(|| {
+        error("it has no triangle with an area".to_owned(), "give an object with faces, not only points or lines")
+    })
+}
+
+/// Three corners with their colours.
+type Triangle = [(Place, Colour); 3];
+
+/// Returns the triangles of the object that a reader gives, as they stand there; `file` is its name in messages, and
+/// the place of its materials.
+///
+/// *Errors:* as of [`obj`], but for triangles without an area.
+pub fn triangles(file: &Path, text: &mut impl BufRead) -> Result<Vec<Triangle>, ImportError> {
+    let error = |what: String, hint: &'static str| ImportError { file: file.to_path_buf(), what, hint };
     let folder = file.parent().unwrap_or(Path::new(""));
     let options = tobj::LoadOptions { triangulate: true, single_index: true, ..tobj::LoadOptions::default() };
     let material = |path: &Path| match path.file_name() {
         Some(name) => tobj::load_mtl(folder.join(name)),
         None => Err(tobj::LoadError::OpenFileFailed),
     };
-    let (models, materials) = tobj::load_obj_buf(&mut BufReader::new(opened), &options, material)
+    let (models, materials) = tobj::load_obj_buf(text, &options, material)
         .map_err(|reason| error(format!("it is no OBJ file that can be read ({reason})"), "export the object anew"))?;
     let materials = materials.unwrap_or_default();
     let count = models.iter().map(|model| model.mesh.indices.len() / 3).sum::<usize>();
@@ -80,7 +94,7 @@ pub fn obj(file: &Path) -> Result<World, ImportError> {
             "give a simpler object",
         ));
     }
-    let mut triangles: Vec<[(Place, Colour); 3]> = Vec::with_capacity(count);
+    let mut triangles: Vec<Triangle> = Vec::with_capacity(count);
     for mesh in models.iter().map(|model| &model.mesh) {
         let of_material = mesh.material_id.and_then(|id| materials.get(id)?.diffuse);
         let base = of_material.unwrap_or([0.75; 3]).map(|channel| if channel.is_finite() { channel } else { 0.75 });
@@ -102,13 +116,11 @@ pub fn obj(file: &Path) -> Result<World, ImportError> {
             triangles.push([a, b, c]);
         }
     }
-    on_stage(file, &triangles).ok_or_else(|| {
-        error("it has no triangle with an area".to_owned(), "give an object with faces, not only points or lines")
-    })
+    Ok(triangles)
 }
 
 /// The triangles, upright, scaled, shaded and set down; nothing if none has an area.
-fn on_stage(file: &Path, triangles: &[[(Place, Colour); 3]]) -> Option<World> {
+fn on_stage(file: &Path, triangles: &[Triangle]) -> Option<World> {
     let places = || triangles.iter().flatten().map(|(place, _)| place);
     let bound = |better: fn(f64, f64) -> f64, start: f64| {
         [0, 1, 2].map(|axis: usize| places().fold(start, |bound, place| better(bound, place[axis])))

@@ -1,8 +1,11 @@
 //! COLMAP's text model: `images.txt`, and `cameras.txt` beside it.
 
 use std::collections::HashMap;
+use std::path::Path;
 
 use super::super::error::CaptureError;
+use super::super::folder::Folder;
+use super::super::manifest::Camera;
 use super::super::source::{Size, Source};
 use super::text::{in_line, numbers};
 use super::{List, from_quaternion, scaled, stamps_of};
@@ -15,11 +18,13 @@ struct Model {
 }
 
 /// Returns the poses of an `images.txt` as they stand there, world to camera, stamped by the pictures' names, and the
-/// intrinsics of the cameras beside it for pictures of `size`, unless the manifest has its own (`given`).
+/// intrinsics of the cameras beside it for pictures of `size`, unless the manifest has its own.
 ///
 /// Each picture has two lines: `id qw qx qy qz tx ty tz camera name`, and its points, which may be none.
-pub(super) fn read(source: &Source, size: Size, given: bool) -> Result<List, CaptureError> {
+pub(super) fn read(source: &Source, camera: &Camera, folder: Folder<'_>, size: Size) -> Result<List, CaptureError> {
     let mut list = List::default();
+    let given = camera.intrinsics;
+    let beside = Path::new(&camera.poses).with_file_name("cameras.txt");
     let (mut names, mut cameras) = (Vec::new(), Vec::new());
     let numbered = source.text()?.lines().enumerate().map(|(index, line)| (index + 1, line.trim()));
     let mut lines = numbered.filter(|(_, line)| !line.starts_with('#'));
@@ -45,9 +50,8 @@ pub(super) fn read(source: &Source, size: Size, given: bool) -> Result<List, Cap
         lines.next();
     }
     list.stamps = stamps_of(&names);
-    let beside = source.path.with_file_name("cameras.txt");
-    if !given && beside.is_file() {
-        let file = Source::open(&beside)?;
+    if let (None, Some(beside)) = (given, beside.to_str().filter(|name| folder.holds(name))) {
+        let file = folder.open(beside)?;
         let models = models(&file)?;
         for camera in &cameras {
             let model = models.get(camera).ok_or_else(|| {

@@ -4,12 +4,13 @@
 //! order of time where the file says it: by time stamps, by the numbers of frames, by the names of pictures.
 
 mod colmap;
-mod text;
+pub(super) mod text;
 mod transforms;
 
 use std::path::Path;
 
 use super::error::CaptureError;
+use super::folder::Folder;
 use super::manifest::{Axes, Camera, PoseFormat, Quaternion, Transform};
 use super::source::{Size, Source};
 
@@ -109,8 +110,8 @@ impl Path3 {
 ///
 /// Wanted are the poses before and after. Where one of them is missing, the next two on the other side give the same
 /// parabola one-sidedly; where there is only one other pose, the velocity is constant. Errors: no other pose at all.
-pub(super) fn read(camera: &Camera, folder: &Path, size: Size) -> Result<Path3, CaptureError> {
-    let file = folder.join(&camera.poses);
+pub(super) fn read(camera: &Camera, folder: Folder<'_>, size: Size) -> Result<Path3, CaptureError> {
+    let file = folder.path(&camera.poses);
     let (list, at, steps) = if camera.format == PoseFormat::MatrixFiles {
         numbered_files(camera, folder)?
     } else {
@@ -163,8 +164,8 @@ pub(super) fn read(camera: &Camera, folder: &Path, size: Size) -> Result<Path3, 
 }
 
 /// Reads the poses around the update from files with one matrix each.
-fn numbered_files(camera: &Camera, folder: &Path) -> Result<(List, usize, Vec<f64>), CaptureError> {
-    let file = folder.join(&camera.poses);
+fn numbered_files(camera: &Camera, folder: Folder<'_>) -> Result<(List, usize, Vec<f64>), CaptureError> {
+    let file = folder.path(&camera.poses);
     let hint = "write the number of the update's file into the key pose";
     let pose = camera.pose.ok_or_else(|| CaptureError::new(&file, "are files without times", hint))?;
     let (mut list, mut steps, mut at) = (List::default(), Vec::new(), 0);
@@ -172,19 +173,18 @@ fn numbered_files(camera: &Camera, folder: &Path) -> Result<(List, usize, Vec<f6
         let Ok(number) = u32::try_from(i64::from(pose) + offset) else { continue };
         let name = numbered(&camera.poses, number)
             .ok_or_else(|| CaptureError::new(&file, "has no {:06} for the frame's number", "write it into poses"))?;
-        let path = folder.join(name);
         // Only the update's own pose must be there.
-        if offset == 0 || path.exists() {
+        if offset == 0 || folder.holds(&name) {
             at = if offset == 0 { list.poses.len() } else { at };
-            list.poses.push(text::matrix_file(&Source::open(&path)?)?);
+            list.poses.push(text::matrix_file(&folder.open(&name)?)?);
             steps.push(offset as f64);
         }
     }
     Ok((list, at, steps))
 }
 
-fn one_file(camera: &Camera, folder: &Path, size: Size) -> Result<List, CaptureError> {
-    let source = Source::open(&folder.join(&camera.poses))?;
+fn one_file(camera: &Camera, folder: Folder<'_>, size: Size) -> Result<List, CaptureError> {
+    let source = folder.open(&camera.poses)?;
     let order = |usual: Quaternion| camera.quaternion.unwrap_or(usual);
     let mut list = match camera.format {
         PoseFormat::Log => text::log(&source)?,
@@ -192,13 +192,13 @@ fn one_file(camera: &Camera, folder: &Path, size: Size) -> Result<List, CaptureE
         PoseFormat::Tartanair => text::lines(&source, 0, order(Quaternion::Xyzw))?,
         PoseFormat::Kitti => text::kitti(&source)?,
         PoseFormat::Euroc => text::euroc(&source, camera.mount.is_some(), order(Quaternion::Wxyz))?,
-        PoseFormat::Colmap => colmap::read(&source, size, camera.intrinsics.is_some())?,
+        PoseFormat::Colmap => colmap::read(&source, camera, folder, size)?,
         PoseFormat::Transforms | PoseFormat::MatrixFiles => {
             transforms::read(&source, size, camera.intrinsics.is_some())?
         }
     };
     if let Some(times) = &camera.times {
-        let source = Source::open(&folder.join(times))?;
+        let source = folder.open(times)?;
         let stamps = text::times(&source)?;
         if stamps.len() != list.poses.len() {
             let what = format!("holds {} times for {} poses", stamps.len(), list.poses.len());

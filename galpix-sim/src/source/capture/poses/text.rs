@@ -6,7 +6,7 @@ use super::super::source::Source;
 use super::{List, Pose, from_matrix, from_quaternion};
 
 /// Returns the numbers of a line, or the word that is none.
-pub(super) fn numbers(line: &str) -> Result<Vec<f64>, String> {
+pub(in super::super) fn numbers(line: &str) -> Result<Vec<f64>, String> {
     let number = |word: &str| word.parse().map_err(|_| format!("has \"{word}\" where a number belongs"));
     line.split(|c: char| c.is_whitespace() || c == ',').filter(|word| !word.is_empty()).map(number).collect()
 }

@@ -11,7 +11,7 @@ use super::folder::near;
 use crate::update::Known;
 
 /// Returns the folder of the test data, if it is there.
-fn data() -> Option<PathBuf> {
+pub fn data() -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data");
     if folder.is_dir() {
         return Some(folder);

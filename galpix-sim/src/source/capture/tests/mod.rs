@@ -11,6 +11,7 @@ mod flow;
 mod folder;
 mod hidden;
 mod hostile;
+mod init;
 mod kinds;
 mod manifest;
 mod maps;

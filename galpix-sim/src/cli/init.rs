@@ -1,0 +1,92 @@
+//! `galpix init`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{CliError, note, print, print_json, printable};
+use crate::output::save::write_atomically;
+use crate::source::capture::{InitOptions, Proposal, init};
+
+/// Arguments of `galpix init`.
+#[derive(Debug, Args)]
+pub struct Init {
+    /// The folder with the files: pictures, depth, vectors or poses
+    folder: PathBuf,
+    /// Display frames between two numbers of the pictures
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65_535))]
+    step: u32,
+    /// The camera's intrinsics in pixels, where no file gives them
+    #[arg(long, value_name = "FX,FY,CX,CY", value_delimiter = ',', num_args = 4)]
+    intrinsics: Option<Vec<f64>>,
+    /// Print the manifest and write nothing
+    #[arg(long)]
+    print: bool,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What `galpix init` wrote.
+#[derive(Serialize, JsonSchema)]
+pub struct Initialised {
+    /// The manifest's file; nothing with `--print`.
+    file: Option<String>,
+    /// The manifest, in TOML.
+    manifest: String,
+    /// The update moved to the first later picture, in dB over the whole picture; nothing without one.
+    moved_db: Option<f64>,
+    /// The update unchanged, against the same picture.
+    still_db: Option<f64>,
+    /// Files of the folder that are not used.
+    unused: Vec<String>,
+    /// What the importer remarks.
+    notes: Vec<String>,
+}
+
+impl Init {
+    /// Writes a manifest for a folder that has none.
+    pub fn run(&self) -> Result<(), CliError> {
+        let file = self.folder.join("capture.toml");
+        if !self.print && file.exists() {
+            return Err(CliError::Unusable(format!(
+                "{} is there already and is not overwritten: move it away, or see what would be written with --print",
+                file.display()
+            )));
+        }
+        let intrinsics = match self.intrinsics.as_deref() {
+            None => None,
+            Some(&[fx, fy, cx, cy]) if fx > 0.0 && fy > 0.0 => Some([fx, fy, cx, cy]),
+            Some(_) => {
+                return Err(CliError::Unusable(
+                    "--intrinsics needs four numbers FX,FY,CX,CY, FX and FY above 0".into(),
+                ));
+            }
+        };
+        let options = InitOptions { step: self.step, intrinsics };
+        let proposal = init(&self.folder, &options).map_err(CliError::unusable)?;
+        if !self.print {
+            write_atomically(&file, proposal.manifest.as_bytes())
+                .map_err(|error| CliError::Unusable(format!("{} cannot be written ({error})", file.display())))?;
+        }
+        let Proposal { manifest, moved_db, still_db, unused, notes } = proposal;
+        if self.json {
+            let file = (!self.print).then(|| file.display().to_string());
+            return print_json("init", &Initialised { file, manifest, moved_db, still_db, unused, notes });
+        }
+        notes.iter().for_each(|text| note(&format!("note: {}", printable(text))));
+        if self.print {
+            return print(manifest.trim_end());
+        }
+        print(&format!("{} is written: it is read without fault", file.display()))?;
+        match moved_db.zip(still_db) {
+            Some((moved, still)) => print(&format!(
+                "moved to the first later picture the update is at {moved:.2} dB, unchanged at {still:.2} dB"
+            )),
+            None => print("there is no later picture to compare with"),
+        }?;
+        print(&format!("next: galpix check {0}, galpix run {0}", self.folder.display()))
+    }
+}
