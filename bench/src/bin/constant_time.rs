@@ -2,8 +2,8 @@
 //! must not depend on the picture.
 //!
 //! ```sh
-//! cargo run --release -p galpix-bench --bin constant_time             # 96x64
-//! cargo run --release -p galpix-bench --bin constant_time -- 320x240
+//! cargo run --profile bench -p galpix-bench --bin constant_time             # 96x64
+//! cargo run --profile bench -p galpix-bench --bin constant_time -- 320x240
 //! ```
 //!
 //! Needs valgrind. The program runs itself under its callgrind, which counts what lies within [`counted_frame`]: one

@@ -106,7 +106,7 @@ fn channels_of_an_exr_are_found_by_what_they_are_called() {
     let plane = |value: f32| vec![value; W * H];
     let list = [("Z", plane(3.0)), ("VX", plane(2.0)), ("VY", plane(1.0)), ("VZ", plane(0.0))];
     let blender = [
-        ("View.Depth.Z", plane(1e10)),
+        ("View.Depth.Z", [&plane(3.0)[1..], &[1e10]].concat()),
         ("View.Vector.X", plane(0.0)),
         ("View.Vector.Y", plane(0.0)),
         ("View.Vector.Z", plane(-2.0)),
