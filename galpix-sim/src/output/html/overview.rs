@@ -111,6 +111,10 @@ pub fn overview(report: &Report) -> Markup {
             @if report.stories.is_empty() {
                 p.nothing { "No scene was run." }
             } @else {
+                // Where the page is narrow, the table is too long to lead to the scenes.
+                nav.contents aria-label="Scenes" {
+                    @for (index, story) in report.stories.iter().enumerate() { (link(index, story)) }
+                }
                 div.wide {
                     table.overview {
                         thead {
