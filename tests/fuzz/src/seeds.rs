@@ -116,6 +116,7 @@ fn exr() -> Vec<Vec<u8>> {
         encode::exr(W, H, Precision::Float, &list(&["R", "G", "B", "A"])),
         encode::exr(2, 2, Precision::Float, &[("Z", vec![1.0; 4])]),
         encode::exr_window([3, 2], [1, 1], [4, 3], &[("R", vec![0.5; 6]), ("G", vec![0.5; 6]), ("B", vec![0.5; 6])]),
+        encode::exr_tiled(W, H, &list(&["R", "G", "B"])),
         encode::exr_parts(W, H, &[("View.Combined", list(&["R", "G", "B"])), ("View.Depth", list(&["Z"]))]),
     ];
     let compressions = [

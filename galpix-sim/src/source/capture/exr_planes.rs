@@ -12,6 +12,7 @@ use exr::compression::Compression;
 use exr::error::Error;
 use exr::image::{AnyChannel, FlatSamples};
 use exr::math::Vec2;
+use exr::meta::BlockDescription;
 use exr::meta::MetaData;
 use exr::meta::attribute::{Chromaticities, SampleType};
 use exr::prelude::{ReadChannels, ReadLayers, read};
@@ -22,6 +23,9 @@ use super::source::{Bands, Size, Source, array};
 
 /// Most bytes that all channels of a file may take when decoded.
 const MAX_DECODED: u64 = 4 << 30;
+
+/// Most numbers of a tile that is larger than its picture.
+const LARGEST_TILE: usize = 16 << 20;
 
 /// All channels of one file.
 pub(super) struct Planes<'a> {
@@ -258,6 +262,16 @@ fn check_headers(source: &Source) -> Result<(), CaptureError> {
             return Err(
                 source.fault("has a channel with fewer pixels than the picture", "export all at full resolution")
             );
+        }
+        // The decoder makes room for a whole tile, however little of it the picture fills.
+        if let BlockDescription::Tiles(tiles) = header.blocks {
+            let Vec2(width, height) = tiles.tile_size;
+            let numbers = |cells: usize| cells.saturating_mul(channels.len());
+            if numbers(width.saturating_mul(height)) > LARGEST_TILE.max(numbers(size.cells())) {
+                let what =
+                    format!("has tiles of {width}x{height}, beyond its picture of {}x{}", size.width, size.height);
+                return Err(source.fault(what, "export it with smaller tiles, or in lines"));
+            }
         }
         // Each chunk has an entry of 8 bytes in the offset table, so a file cannot hold more of them than this.
         if header.chunk_count as u64 > source.bytes.len() as u64 / 8 {

@@ -96,6 +96,17 @@ pub fn exr_with(
     file.into_inner()
 }
 
+/// Returns an EXR in tiles of 64x64.
+pub fn exr_tiled(width: usize, height: usize, list: &[Channel]) -> Vec<u8> {
+    let blocks = exr::prelude::Blocks::Tiles(exr::math::Vec2(64, 64));
+    let encoding = exr::prelude::Encoding { blocks, ..exr::prelude::Encoding::UNCOMPRESSED };
+    let layer = Layer::new((width, height), LayerAttributes::default(), encoding, channels(list, Precision::Float));
+    let bounds = exr::prelude::IntegerBounds::from_dimensions((width, height));
+    let mut file = Cursor::new(Vec::new());
+    Image::new(exr::prelude::ImageAttributes::new(bounds), layer).write().to_buffered(&mut file).unwrap();
+    file.into_inner()
+}
+
 /// Returns an EXR with several named parts.
 pub fn exr_parts(width: usize, height: usize, parts: &[(&str, Vec<Channel>)]) -> Vec<u8> {
     let part = |(name, list): &(&str, Vec<Channel>)| {

@@ -274,3 +274,15 @@ fn absurd_sizes_are_refused_before_anything_is_allocated() {
     let error = folder::flow_of(&source("l.flo", encode::pieh(16_384, 4096, &[0.0; 24])), allowed).unwrap_err();
     check_refusal(&error, "l.flo", "where its header promises 536870912");
 }
+
+/// A tile that the header makes larger than any picture costs nothing.
+#[test]
+fn tiles_far_beyond_the_picture_are_refused() {
+    let exr = encode::exr_tiled(W, H, &[("Z", vec![2.0; W * H])]);
+    raw(&source("tiled.exr", exr.clone())).unwrap();
+    let tag = b"tiledesc\0\x09\0\0\0";
+    let at = exr.windows(tag.len()).position(|window| window == tag).unwrap() + tag.len();
+    let huge = patched(exr, at, &[0x40, 0, 0xf8, 0]);
+    let error = raw(&source("tiled.exr", huge)).unwrap_err();
+    check_refusal(&error, "tiled.exr", "has tiles of 16252992x64, beyond its picture of 4x3");
+}
