@@ -34,7 +34,7 @@ binary="$work/build/$host/release/importers"
 one() {
     local importer="$1" log="$work/$1.log" status=0 runs
     mkdir -p "$work/$importer"
-    IMPORTER="$importer" SEEDS="$work/$importer" "$binary" -max_total_time="$2" -timeout=20 -rss_limit_mb=1024 \
+    IMPORTER="$importer" SEEDS="$work/$importer" "$binary" -max_total_time="$2" -timeout=60 -rss_limit_mb=1024 \
         -max_len=4096 -print_final_stats=1 -artifact_prefix="$work/$importer-" "$work/$importer" >"$log" 2>&1 || status=$?
     runs="$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")"
     printf '%s %s\n' "$importer" "${runs:-0}" >>"$work/executions.txt"

@@ -69,6 +69,9 @@ fn turned(
     orientation.upright(size, &pixels)
 }
 
+/// Most pixels that a byte of a JPEG can hold: a block of 8x8 takes a bit at least.
+const PIXELS_A_BYTE: usize = 8 * 64;
+
 fn jpeg(source: &Source, canvas: &mut Canvas<'_>) -> Result<(Size, Vec<[u8; 3]>), CaptureError> {
     let damaged = |e: DecodeErrors| source.damaged(e);
     // The decoder is lenient: it paints grey what a truncated file lacks.
@@ -83,6 +86,10 @@ fn jpeg(source: &Source, canvas: &mut Canvas<'_>) -> Result<(Size, Vec<[u8; 3]>)
     decoder.decode_headers().map_err(damaged)?;
     let (width, height) = decoder.dimensions().ok_or_else(|| source.damaged("it has no size"))?;
     let size = source.agree(width as u64, height as u64, None)?;
+    if size.cells() > PIXELS_A_BYTE * source.bytes.len() {
+        let what = format!("it is too short for the {width}x{height} pixels that its header promises");
+        return Err(source.damaged(what));
+    }
     let bytes = decoder.decode().map_err(damaged)?;
     let orientation = decoder.exif().and_then(|exif| Orientation::of(exif));
     let is_srgb = |profile: &[u8]| profile.windows(4).any(|name| name == b"sRGB");

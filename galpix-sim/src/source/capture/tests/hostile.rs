@@ -286,3 +286,15 @@ fn tiles_far_beyond_the_picture_are_refused() {
     let error = raw(&source("tiled.exr", huge)).unwrap_err();
     check_refusal(&error, "tiled.exr", "has tiles of 16252992x64, beyond its picture of 4x3");
 }
+
+/// The decoder would paint what is not there.
+#[test]
+fn a_jpeg_that_is_too_short_for_its_size_is_refused() {
+    let jpeg = encode::jpeg(W as u32, H as u32, &cells(folder::colour).concat());
+    picture(&source("short.jpg", jpeg.clone())).unwrap();
+    // The frame header: its length, the precision, rows, columns.
+    let at = jpeg.windows(2).position(|pair| pair == [0xff, 0xc0]).unwrap() + 5;
+    let large = patched(jpeg, at, &[0x10, 0, 0x20, 0]);
+    let error = picture_of_any_size(&source("short.jpg", large)).unwrap_err();
+    check_refusal(&error, "short.jpg", "too short for the 8192x4096 pixels");
+}
