@@ -7,8 +7,8 @@
 #   tests/fuzz/run.sh 60 exr npy    these importers alone
 #
 # What a run finds worth keeping stays in target/fuzz/<importer>; a case that fails is kept as target/fuzz/<importer>-*.
-# Each run adds its executions to target/fuzz/executions.txt. Ends with 1 if a case fails, with 3 if the fuzzer cannot be
-# built here.
+# Each run adds its executions to target/fuzz/executions.txt. Ends with 1 if a case fails, with 3 if the fuzzer cannot
+# be built here.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 

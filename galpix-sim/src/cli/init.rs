@@ -19,8 +19,8 @@ pub struct Init {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=65_535))]
     step: u32,
     /// The camera's intrinsics in pixels, where no file gives them
-    #[arg(long, value_name = "FX,FY,CX,CY", value_delimiter = ',', num_args = 4)]
-    intrinsics: Option<Vec<f64>>,
+    #[arg(long, value_name = "FX,FY,CX,CY", value_parser = intrinsics)]
+    intrinsics: Option<[f64; 4]>,
     /// Print the manifest and write nothing
     #[arg(long)]
     print: bool,
@@ -46,6 +46,17 @@ pub struct Initialised {
     notes: Vec<String>,
 }
 
+/// Reads `FX,FY,CX,CY`.
+fn intrinsics(text: &str) -> Result<[f64; 4], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[fx, fy, cx, cy]) if fx > 0.0 && fy > 0.0 && [fx, fy, cx, cy].iter().all(|number| number.is_finite()) => {
+            Ok([fx, fy, cx, cy])
+        }
+        _ => Err("give four numbers FX,FY,CX,CY, of which FX and FY are above 0".to_owned()),
+    }
+}
+
 impl Init {
     /// Writes a manifest for a folder that has none.
     pub fn run(&self) -> Result<(), CliError> {
@@ -56,16 +67,7 @@ impl Init {
                 file.display()
             )));
         }
-        let intrinsics = match self.intrinsics.as_deref() {
-            None => None,
-            Some(&[fx, fy, cx, cy]) if fx > 0.0 && fy > 0.0 => Some([fx, fy, cx, cy]),
-            Some(_) => {
-                return Err(CliError::Unusable(
-                    "--intrinsics needs four numbers FX,FY,CX,CY, FX and FY above 0".into(),
-                ));
-            }
-        };
-        let options = InitOptions { step: self.step, intrinsics };
+        let options = InitOptions { step: self.step, intrinsics: self.intrinsics };
         let proposal = init(&self.folder, &options).map_err(CliError::unusable)?;
         if !self.print {
             write_atomically(&file, proposal.manifest.as_bytes())
