@@ -15,8 +15,10 @@ mod fills;
 mod graft;
 mod hidden;
 mod layers;
+mod logic;
 mod plan;
 mod progress;
+mod rtl;
 mod run;
 mod scenes;
 mod schema;
@@ -119,6 +121,8 @@ enum Command {
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
     Vectors(vectors::Vectors),
+    /// Writes a budget as parameters of the reference design in logic
+    Rtl(rtl::Rtl),
     /// Prints the completions of a shell
     Completions(describe::Completions),
     /// Prints the manual page, or writes one for each command
@@ -152,6 +156,7 @@ pub fn main() -> ExitCode {
         Command::Schema(schema) => schema.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
+        Command::Rtl(rtl) => rtl.run(),
         Command::Completions(completions) => completions.run(),
         Command::Man(man) => man.run(),
     };

@@ -79,10 +79,12 @@ pub enum Picture {
     Surfaces,
     /// The same with offsets at the limits of sub-cell scan-out: a 256th of a cell, three eighths, a half.
     Limits,
+    /// The quarters of a surface drift apart, and every field differs from cell to cell.
+    Varied,
 }
 
 impl Picture {
-    /// All of them but the last five, which are for inpainting, disocclusion and scan-out.
+    /// All of them but the last six, which are for inpainting, disocclusion, scan-out and the means of bullets.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -118,6 +120,7 @@ impl Picture {
             Self::Creep => "creep",
             Self::Surfaces => "surfaces",
             Self::Limits => "limits",
+            Self::Varied => "varied",
         }
     }
 }
@@ -140,6 +143,10 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             Picture::Creep => each_field(record, |name, field| creeping_field(name, field, random)),
             Picture::Surfaces => each_field(record, |name, field| surface_field(name, field, random)),
             Picture::Limits => each_field(record, |name, field| limit_field(name, field, random)),
+            Picture::Varied => {
+                let halves = [2 * i32::from(2 * x >= columns), 2 * i32::from(2 * y >= rows)];
+                each_field(record, |name, field| varied_field(name, field, record, halves, random))
+            }
             _ => drawn(picture, record, [x, y], [columns, rows], random),
         };
         for (word, value) in words.iter().take(record.words()).enumerate() {
@@ -150,7 +157,7 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
 }
 
 /// Returns the words of a galpixel each of whose fields has the value that is given for it.
-fn each_field(record: &Record, mut value: impl FnMut(&str, Field) -> i32) -> Words {
+pub fn each_field(record: &Record, mut value: impl FnMut(&str, Field) -> i32) -> Words {
     let mut words = [0; MAX_WORDS];
     for (name, field) in fields(record) {
         set(&mut words, field, value(name, field));
@@ -163,7 +170,7 @@ fn velocity_frac(record: &Record, name: &str) -> u32 {
     record.scales[usize::from(name.ends_with('y'))].velocity_frac
 }
 
-fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) -> i32 {
+pub fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) -> i32 {
     let bits = u32::from(field.bits);
     match name {
         "class" => [0, 0, 0, 0, 0, 1, 2, 3][random.below(8) as usize],
@@ -212,7 +219,26 @@ fn limit_field(name: &str, field: Field, random: &mut Random) -> i32 {
     }
 }
 
-fn extreme_field(name: &str, field: Field, random: &mut Random) -> i32 {
+/// `halves` is the velocity in half cells a frame, on which the field has some noise.
+fn varied_field(name: &str, field: Field, record: &Record, halves: [i32; 2], random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    match name {
+        "class" => 0,
+        // Far less than the threshold of an edge, wherever the field has the bits for it.
+        "depth" => (1 << bits >> 2) + (random.below(1 << bits >> 9) as i32),
+        "velocity_x" | "velocity_y" if bits > 0 => {
+            let component = usize::from(name.ends_with('y'));
+            let top = (1i32 << bits >> 1) - 1;
+            let noise = random.signed(bits.min(3));
+            (((halves[component] << record.scales[component].velocity_frac) >> 1) + noise).clamp(-top - 1, top)
+        }
+        "acceleration_x" | "acceleration_y" => random.signed(bits.min(4)),
+        "velocity_depth" | "acceleration_depth" => random.signed(bits.min(6)),
+        _ => random.signed(bits),
+    }
+}
+
+pub fn extreme_field(name: &str, field: Field, random: &mut Random) -> i32 {
     let bits = u32::from(field.bits);
     if bits == 0 {
         return 0;
