@@ -14,7 +14,7 @@ export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs rtl benches msrv package firmware)
 QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
@@ -48,6 +48,15 @@ install_missing() {
             echo "valgrind is missing: install it, for example with: sudo apt-get install valgrind" >&2
         fi
     fi
+    if ! command -v iverilog >/dev/null || ! command -v verilator >/dev/null || ! command -v yosys >/dev/null; then
+        if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+            say "tools for logic are missing: installing iverilog, verilator, yosys and nextpnr-ice40"
+            apt-get update -qq && apt-get install -y -qq --no-install-recommends iverilog verilator yosys nextpnr-ice40 ||
+                echo "they could not be installed" >&2
+        else
+            echo "tools for logic are missing: install them, for example with: sudo apt-get install iverilog verilator yosys" >&2
+        fi
+    fi
     for target in "${BARE_TARGETS[@]}" "${FIRMWARE_TARGETS[@]}"; do
         installed "$target" && continue
         say "the target $target is missing: rustup target add"
@@ -70,6 +79,7 @@ step_format() {
     cargo fmt --all -- --check
     cargo fmt --manifest-path tests/codegen/Cargo.toml -- --check
     bash -n tests/proofs/run.sh
+    bash -n firmware/rtl/test.sh
 }
 
 # Comments and text wrap at 120 columns: rustfmt does not look at them. Tables, pictures, links and code blocks do not
@@ -158,6 +168,14 @@ step_proofs() {
     local status=0
     tests/proofs/run.sh --quick || status=$?
     [ "$status" != 3 ] || { skip "python3, or the solver from its package registry, cannot be had here"; return; }
+    return "$status"
+}
+
+# The reference design in logic: lint, all vectors of its kinds, proofs, planted faults, synthesis.
+step_rtl() {
+    local status=0
+    firmware/rtl/test.sh || status=$?
+    [ "$status" != 3 ] || { skip "some steps of firmware/rtl/test.sh could not run, see above"; return; }
     return "$status"
 }
 

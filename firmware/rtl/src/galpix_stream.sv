@@ -135,7 +135,7 @@ module galpix_stream #(
   logic [RECORD-1:0] galpixel_now;
   logic [ROW-1:0] row_now;
   logic [COLUMN-1:0] column_now;
-  logic on_edge;
+  logic edge_early, on_edge;                   // a clock before the step's result, and with it
   if (SURFACES) begin : edges
     // The window has class and depth alone; the galpixel waits beside it in two rows, or in more where a row is so short
     // that a place would be written as it is read.
@@ -163,7 +163,7 @@ module galpix_stream #(
         .read_at(waiting_at(next_at[COLUMN +: ROW], next_at[COLUMN-1:0])), .q(galpixel_now)
     );
     galpix_edge #(.DEPTH(DEPTH)) bend (
-        .clk, .enable, .threshold(edge_threshold), .has, .centre, .left, .right, .above, .below, .on_edge
+        .clk, .enable, .threshold(edge_threshold), .has, .centre, .left, .right, .above, .below, .on_edge(edge_early)
     );
     wire unused = &{1'b0, a, b, c, d, done};
   end else begin : no_edges
@@ -175,7 +175,7 @@ module galpix_stream #(
         {in_row_1, in_column_1} <= {in_row, in_column};
         {row_now, column_now, galpixel_now, stepping} <= {in_row_1, in_column_1, in_1, take_1};
       end
-    assign on_edge = 1'b0;
+    assign edge_early = 1'b0;
     wire unused = &{1'b0, edge_threshold};
   end
 
@@ -198,8 +198,19 @@ module galpix_stream #(
   logic signed [galpixel::X_CELLS-1:0] x_cells;
   logic signed [galpixel::Y_CELLS-1:0] y_cells;
   logic [2:0] saturated;
+  // What comes out of a memory has no time left for an adder.
+  logic [RECORD-1:0] given;
+  logic given_there;
+  logic [ROW-1:0] given_row;
+  logic [COLUMN-1:0] given_column;
+  always_ff @(posedge clk)
+    if (reset) given_there <= 1'b0;
+    else if (enable) begin
+      {given_there, given, given_row, given_column} <= {stepping, galpixel_now, row_now, column_now};
+      on_edge <= edge_early;
+    end
   galpix_lane lane (
-      .clk, .enable, .x_threshold, .y_threshold, .z_threshold, .given(galpixel_now), .after(moved), .x_cells, .y_cells,
+      .clk, .enable, .x_threshold, .y_threshold, .z_threshold, .given, .after(moved), .x_cells, .y_cells,
       .saturated
   );
   logic [2:0] stepped, empty;
@@ -208,10 +219,10 @@ module galpix_stream #(
   always_ff @(posedge clk)
     if (reset) stepped <= '0;
     else if (enable) begin
-      stepped <= {stepped[1:0], stepping};
-      empty <= {empty[1:0], galpixel_now[galpixel::CLASS_LSB +: 2] == 2'd3};
-      {row_1, row_2, row_3} <= {row_now, row_1, row_2};
-      {column_1, column_2, column_3} <= {column_now, column_1, column_2};
+      stepped <= {stepped[1:0], given_there};
+      empty <= {empty[1:0], given[galpixel::CLASS_LSB +: 2] == 2'd3};
+      {row_1, row_2, row_3} <= {given_row, row_1, row_2};
+      {column_1, column_2, column_3} <= {given_column, column_1, column_2};
     end
   assign edge_valid = enable && stepped[2];
   assign edge_bit = on_edge;

@@ -111,8 +111,8 @@ const fn signed_bits(lowest: i64, highest: i64) -> u32 {
     if least > most { least } else { most }
 }
 
-/// Takes integer bits off the motion in y until no galpixel moves by more rows than `limit`. The fraction bits stay, and
-/// with them the certificate: what is cut is how fast anything may be, along y alone.
+/// Takes integer bits off the motion in y until no galpixel moves by more rows than `limit`. The fraction bits stay,
+/// and with them the certificate: what is cut is how fast anything may be, along y alone.
 ///
 /// *Errors:* if even the narrowest field that can be stored moves farther.
 pub fn limited(bits: Bits, limit: u32, plan: impl Fn(Bits) -> Option<Record>) -> Result<Bits, String> {

@@ -132,7 +132,7 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     cases.extend(source::cases(seed, &models)?);
     propagate_cases(&mut cases, seed, &models);
     varied_cases(&mut cases, seed, &models)?;
-    wide_case(&mut cases, seed, &models)?;
+    display_cases(&mut cases, seed, &models)?;
     Ok(cases)
 }
 
@@ -166,8 +166,8 @@ fn varied_cases(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<()
     Ok(())
 }
 
-/// A map as wide as a display, for line buffers and counters of columns.
-fn wide_case(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<(), RunError> {
+/// A map as wide as a display, for line buffers and counters of columns, and a test pattern on a panel.
+fn display_cases(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<(), RunError> {
     let Some(model) = models.iter().find(|model| model.name == "velocity565") else { return Ok(()) };
     let settings = Settings {
         rounding: Rounding::Searched,
@@ -177,7 +177,10 @@ fn wide_case(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<(), R
     };
     let grid = grid(1024, 8, [0; 4]);
     let plan = Plan { picture: Picture::Uncover, grid, settings, constant_time: false, frame: 0, frames: 2 };
-    frame_case(cases, seed, model, &plan)
+    frame_case(cases, seed, model, &plan)?;
+    // What `firmware/rtl/src/galpix_panel.sv` shows.
+    let grid = self::grid(60, 46, [2, 2, 1, 1]);
+    frame_case(cases, seed, model, &Plan { picture: Picture::Pattern, grid, frames: 4, ..plan })
 }
 
 fn frame_case(cases: &mut Vec<Case>, seed: u64, model: &Model, plan: &Plan) -> Result<(), RunError> {

@@ -6,6 +6,7 @@ use galpix_core::{Class, Record};
 
 use crate::case::{GridSize, fields};
 use crate::field::{Words, set};
+use crate::rtl::channels;
 
 /// Steele, Lea and Flood's splitmix64: three lines, and the same on every machine for ever.
 #[derive(Clone, Debug)]
@@ -81,10 +82,12 @@ pub enum Picture {
     Limits,
     /// The quarters of a surface drift apart, and every field differs from cell to cell.
     Varied,
+    /// What a camera sends to test a display: bars, and a box that moves over them.
+    Pattern,
 }
 
 impl Picture {
-    /// All of them but the last six, which are for inpainting, disocclusion, scan-out and the means of bullets.
+    /// All of them but the last seven, which are for inpainting, disocclusion, scan-out, the means of bullets, a panel.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -121,6 +124,7 @@ impl Picture {
             Self::Surfaces => "surfaces",
             Self::Limits => "limits",
             Self::Varied => "varied",
+            Self::Pattern => "pattern",
         }
     }
 }
@@ -142,6 +146,7 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             Picture::Extreme => each_field(record, |name, field| extreme_field(name, field, random)),
             Picture::Creep => each_field(record, |name, field| creeping_field(name, field, random)),
             Picture::Surfaces => each_field(record, |name, field| surface_field(name, field, random)),
+            Picture::Pattern => each_field(record, |name, field| pattern_field(name, field, record, [x, y])),
             Picture::Limits => each_field(record, |name, field| limit_field(name, field, random)),
             Picture::Varied => {
                 let halves = [2 * i32::from(2 * x >= columns), 2 * i32::from(2 * y >= rows)];
@@ -235,6 +240,31 @@ fn varied_field(name: &str, field: Field, record: &Record, halves: [i32; 2], ran
         "acceleration_x" | "acceleration_y" => random.signed(bits.min(4)),
         "velocity_depth" | "acceleration_depth" => random.signed(bits.min(6)),
         _ => random.signed(bits),
+    }
+}
+
+/// Bars of eight columns behind, their colour by three bits of the column; a box of 16 x 12 cells in front, which moves
+/// by one and a half cells to the right and half a cell down. As `firmware/rtl/src/galpix_pattern.sv` has it.
+fn pattern_field(name: &str, field: Field, record: &Record, [x, y]: [u32; 2]) -> i32 {
+    let bits = u32::from(field.bits);
+    let in_box = (8..24).contains(&x) && (8..20).contains(&y);
+    let all = |bits: u32| (1i64 << bits) as i32 - 1;
+    match name {
+        "depth" if in_box => 1 << bits >> 2,
+        "depth" => all(bits),
+        "velocity_x" if in_box => 3 << record.scales[0].velocity_frac >> 1,
+        "velocity_y" if in_box => 1 << record.scales[1].velocity_frac >> 1,
+        "colour" => {
+            let bars = channels(bits).iter().zip(3..).fold(0, |colour, (&channel, bit)| {
+                colour << channel | if x >> bit & 1 == 1 { all(channel) } else { 0 }
+            });
+            match (in_box, (x ^ y) & 4 == 0) {
+                (true, true) => all(bits),
+                (true, false) => bars ^ all(bits),
+                (false, _) => bars,
+            }
+        }
+        _ => 0,
     }
 }
 

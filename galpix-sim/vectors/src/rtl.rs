@@ -71,12 +71,7 @@ pub fn parameters(bits: Bits, record: &Record) -> Vec<String> {
         lines.push(format!("localparam int {name}_CELLS = {};", u32::BITS - reach.leading_zeros() + 1));
     }
     let layout = record.layout();
-    let channels: &[u32] = match layout.colour.bits() {
-        24 => &[8, 8, 8],
-        16 => &[5, 6, 5],
-        8 => &[8],
-        _ => &[4],
-    };
+    let channels = channels(layout.colour.bits());
     let flags = [("MOTION", layout.velocity), ("DEPTH_MOTION", layout.depth_motion), ("SHADING", layout.luminosity)];
     lines.extend(flags.map(|(name, set)| format!("localparam bit {name} = {};", u8::from(set))));
     let mut below: u32 = channels.iter().sum();
@@ -89,6 +84,16 @@ pub fn parameters(bits: Bits, record: &Record) -> Vec<String> {
     lines.push(format!("localparam int CHANNELS = {};", channels.len()));
     lines.push(format!("localparam int NARROWEST = {};", channels.iter().min().copied().unwrap_or_default()));
     lines
+}
+
+/// Returns the bits of each channel of a colour of so many bits.
+pub const fn channels(bits: u32) -> &'static [u32] {
+    match bits {
+        24 => &[8, 8, 8],
+        16 => &[5, 6, 5],
+        8 => &[8],
+        _ => &[4],
+    }
 }
 
 /// Returns the number by which the reference design knows a rounding.
