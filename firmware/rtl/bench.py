@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Run golden vectors through the reference design under Icarus Verilog.
 
-    bench.py VECTORS BUILD [--kind KIND]... [--only TEXT] [--rotate] [--stall] [--jobs N] [--source DIR]
+    bench.py VECTORS BUILD [--kind KIND]... [--only TEXT] [--rotate] [--stall] [--netlist] [--jobs N] [--source DIR]
 
 VECTORS is a folder of `galpix vectors`, BUILD one for what is compiled. One line a kind, and one for each case that
 differs. Exit code 0: all agree; 1: some differ; 2: the folder or the tools cannot be used.
 
 --rotate   frame cases in the smallest band of rows that their motion allows, so that it turns
 --stall    the display stops at random
+--netlist  what yosys reads in the sources, in their place: for the kinds propagate and frame
 --source   another folder of sources, for mutants
+--stop     end at the first case that differs
 """
 
 import argparse
@@ -95,13 +97,26 @@ def configuration(case, rotate):
 class Builds:
     """Benches by their parameters, each compiled once."""
 
-    def __init__(self, folder, source):
-        self.folder, self.source, self.made = folder, source, {}
+    def __init__(self, folder, source, netlist):
+        self.folder, self.source, self.netlist, self.made = folder, source, netlist, {}
+
+    def read_by_yosys(self, kind, place, parameters):
+        """Writes the netlist of what the bench looks at."""
+        top = {"propagate": "galpix_lane", "frame": "galpix_frame"}[kind]
+        values = " ".join(f"-set {name} {value}" for name, value in parameters.items())
+        sources = " ".join(map(str, [place / "galpixel.sv", *sorted(self.source.glob("*.sv"))]))
+        # The thresholds of a lane stand in the bench.
+        own = f"read_verilog -sv {sources}; " + (f"chparam {values} {top}; " if values else "")
+        done = subprocess.run(["yosys", "-q", "-p", own + f"hierarchy -top {top}; proc; opt; memory -nomap; "
+                               f"write_verilog -noattr {place / 'netlist.v'}"], capture_output=True, text=True, check=False)
+        if done.returncode:
+            raise RuntimeError(f"yosys reads {top} not: {done.stderr[-400:]}")
+        return [place / "netlist.v", *([self.source / "galpix_threshold.sv"] if kind == "propagate" else [])]
 
     def compile(self, kind, record, parameters):
         """Starts nothing: returns the file, compiled if it is not there."""
         key = hashlib.sha256(repr((kind, record if kind != "step" else "", sorted(parameters.items()))).encode())
-        place = self.folder / f"{kind}-{key.hexdigest()[:12]}"
+        place = self.folder / f"{kind}-{'netlist-' if self.netlist else ''}{key.hexdigest()[:12]}"
         image = place / "bench.vvp"
         if key.hexdigest() in self.made:
             return image
@@ -112,8 +127,10 @@ class Builds:
             sources = [self.source / "galpix_threshold.sv", self.source / "galpix_step.sv"]
         else:
             (place / "galpixel.sv").write_text(f"package galpixel;\n{record}\nendpackage\n")
+            if self.netlist:
+                sources = self.read_by_yosys(kind, place, parameters)
             sources.insert(0, place / "galpixel.sv")
-        command = ["iverilog", "-g2012", "-o", str(image), "-s", top,
+        command = ["iverilog", "-g2012", *(["-DNETLIST"] if self.netlist else []), "-o", str(image), "-s", top,
                    *(f"-P{top}.{name}={value}" for name, value in parameters.items()),
                    *map(str, sources), str(HERE / "bench" / f"{top}.sv")]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -146,6 +163,7 @@ def main():
     parser.add_argument("--only", default="")
     parser.add_argument("--rotate", action="store_true")
     parser.add_argument("--stall", action="store_true")
+    parser.add_argument("--netlist", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--source", type=Path, default=HERE / "src")
     parser.add_argument("--stop", action="store_true", help="end at the first case that differs")
@@ -158,7 +176,10 @@ def main():
     kinds = options.kind or (["frame"] if options.rotate else KINDS)
     cases = [Case(options.vectors, entry["name"], entry["kind"]) for entry in entries
              if entry["kind"] in kinds and options.only in entry["name"]]
-    builds = Builds(options.build, options.source)
+    if options.netlist and not set(kinds) <= {"propagate", "frame"}:
+        print("bench.py: --netlist takes the kinds propagate and frame", file=sys.stderr)
+        return 2
+    builds = Builds(options.build, options.source, options.netlist)
     right, wrong, differ, ran = Counter(), Counter(), 0, Counter()
     plans = [(case, *configuration(case, options.rotate)) for case in cases]
     plans = [plan for plan in plans if plan[1] is not None]

@@ -29,8 +29,8 @@ DESIGNS = [
     Design("stream, 128 x 64, extend", "velocity565", "stream_pins", {**SMALL, "RICHEST": 5}, "ecp5 xc7"),
     Design("stream, 128 x 64, extend", "full", "stream_pins", {**SMALL, "BAND": 6, "FRONT": 6, "REACH": 63, "RICHEST": 5},
            "ecp5 xc7"),
-    Design("stream, 1024 x 768, extend", "velocity565", "stream_pins",
-           {"COLUMN": 10, "ROW": 10, "COLUMNS": 1024, "ROWS": 768, "BAND": 5, "FRONT": 4, "REACH": 8, "RICHEST": 5}, "ecp5"),
+    Design("stream, 1024 x 768, hold", "velocity565", "stream_pins",
+           {"COLUMN": 10, "ROW": 10, "COLUMNS": 1024, "ROWS": 768, "BAND": 5, "FRONT": 4, "REACH": 8, "RICHEST": 1}, "ecp5"),
 ]
 SYNTHESIS = {"ecp5": "synth_ecp5 -top", "hx8k": "synth_ice40 -dsp -top", "up5k": "synth_ice40 -dsp -top",
              "xc7": "synth_xilinx -family xc7 -top"}

@@ -10,7 +10,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 export PYTHONDONTWRITEBYTECODE=1
-STEPS=(lint benches rotate panel pace proof mutants synthesis)
+STEPS=(lint benches rotate netlist panel pace proof mutants synthesis)
 BUILD="$(cd ../.. && pwd)/target/rtl"
 VECTORS="$BUILD/vectors"
 LAYOUTS=(paper shaded uneven flat565 velocity565 gray8 gray4 coarse straddle bright565 still)
@@ -74,6 +74,14 @@ step_rotate() {
     needs iverilog python3 || return 0
     vectors
     python3 bench.py "$VECTORS" "$BUILD/benches" --rotate --stall
+}
+
+# What yosys reads in the sources is what the benches saw: the two read SystemVerilog each in their own way.
+step_netlist() {
+    needs iverilog yosys python3 || return 0
+    vectors
+    python3 bench.py "$VECTORS" "$BUILD/benches" --netlist --kind propagate
+    python3 bench.py "$VECTORS" "$BUILD/benches" --netlist --kind frame --only frame-gray4
 }
 
 # Camera to panel: the picture on the panel is the one of the golden vectors.

@@ -18,9 +18,13 @@ module frame;
   int cells, x, y, k, n, wrong, right, clocks, stall;
   always #5 clk = !clk;
 
+`ifdef NETLIST
+  galpix_frame dut (
+`else
   galpix_frame #(
       .COLUMN(COLUMN), .ROW(ROW), .BAND(BAND), .FRONT(FRONT), .ROUNDS(ROUNDS), .RICHEST(RICHEST)
   ) dut (
+`endif
       .clk, .reset, .columns(columns[COLUMN:0]), .rows(rows[ROW:0]), .reach(reach[ROW:0]), .rounding(rounding[1:0]),
       .fill_mode(fill_mode[2:0]), .rounds(rounds[4:0]), .edge_threshold(threshold), .frame(number), .start, .busy,
       .host_write, .host_read, .host_at, .host_data, .host_q, .m_axis_tvalid(tvalid), .m_axis_tready(tready),
