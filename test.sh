@@ -157,7 +157,7 @@ step_model() {
     for seed in 0 1 2; do
         cargo run --locked --quiet --release -- vectors --seed "$seed" --out "target/vectors/$seed"
         PYTHONDONTWRITEBYTECODE=1 python3 tests/model/check_vectors.py "target/vectors/$seed" \
-            "$([ "$seed" = 0 ] && echo --require-all-rules || echo --)" &
+            $([ "$seed" != 0 ] || echo --require-all-rules --coverage) &
         checks+=($!)
     done
     for check in "${checks[@]}"; do wait "$check"; done
