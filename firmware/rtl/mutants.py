@@ -16,8 +16,8 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 
-# File, what stands there once, what is planted, the kind of cases and the text in their names that notice it, and, where
-# nothing can notice it, why.
+# File, what stands there once, what is planted, the kind of cases and the text in their names that notice it, and,
+# where nothing can notice it, why.
 FAULTS = [
     ("galpix_threshold.sv", "frame[BITS-1-bit_of]", "frame[bit_of]", "step", "low-discrepancy", ""),
     ("galpix_threshold.sv", "{1'b1, {(BITS - 1) {1'b0}}}", "'0", "step", "nearest", ""),
