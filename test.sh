@@ -87,7 +87,7 @@ step_format() {
 wide_lines() {
     case "$1" in
         *.md) awk '/^ *```/ { fence = !fence } !fence && !/^ *[|!]/ && !/https?:/' "$1" ;;
-        *.rs) grep -E '^ *//' "$1" ;;
+        *.rs | *.sv) grep -E '^ *//' "$1" ;;
         *) grep -E '^ *#' "$1" ;;
     esac | LC_ALL=C.UTF-8 grep -E '^.{121,}$'
 }
@@ -97,7 +97,7 @@ step_width() {
     while IFS= read -r file; do
         lines="$(wide_lines "$file" || true)"
         [ -z "$lines" ] || { printf '%s, beyond 120 columns:\n%s\n' "$file" "$lines"; status=1; }
-    done < <(git ls-files '*.rs' '*.md' '*.sh' '*.py' '*.toml')
+    done < <(git ls-files '*.rs' '*.sv' '*.md' '*.sh' '*.py' '*.toml')
     return "$status"
 }
 

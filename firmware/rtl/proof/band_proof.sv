@@ -1,6 +1,7 @@
-// Resolution against section 7 of the specification: of all arrivals at a cell the smallest by class, then depth, then
-// source. All sequences of four sources in a map of two by two cells, from a reset on: each has an arrival or none, of
-// any class but empty, any depth, any source, at any cell; so all collisions under way at once, and none of them.
+// Resolution against section 7 of the specification: of all arrivals at a cell the smallest by class, then depth,
+// then source. All sequences of four sources in a map of two by two cells, from a reset on: each has an arrival or
+// none, of any class but empty, any depth, any source, at any cell; so all collisions under way at once, and none of
+// them.
 module band_proof (
     input logic       clk,
     input logic       reset,

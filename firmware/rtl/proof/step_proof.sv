@@ -1,5 +1,5 @@
-// The step of a component against section 5 of the specification, in numbers so wide that nothing is cut off. All states,
-// all thresholds: what comes out is the formula's result for what went in three clocks before.
+// The step of a component against section 5 of the specification, in numbers so wide that nothing is cut off. All
+// states, all thresholds: what comes out is the formula's result for what went in three clocks before.
 module step_proof #(
     parameter int P = 4,
     parameter int VI = 10,

@@ -1,13 +1,15 @@
 // Propagation's second half (specification, section 7): arrivals become cells of the new map. They are resolved in a
 // band of rows that rotates: a row is given out, and its place is free again, as soon as no later source reaches it.
 //
-// One arrival a clock, in any order within the reach of the sources so far; one cell a clock comes out, in raster order.
+// One arrival a clock, in any order within the reach of the sources so far; one cell a clock comes out, in raster
+// order.
 //
 //   clock 0   the place's class and depth are read        clock 2   the smaller wins
 //   clock 1   and registered                              clock 3   and is written
 //
-// Three arrivals may be under way to the same place: clock 2 looks at those first. Whether a place is taken says the xor
-// of two bits: one is written by arrivals, the other when the place is read out, so that nothing needs two write ports.
+// Three arrivals may be under way to the same place: clock 2 looks at those first. Whether a place is taken says the
+// xor of two bits: one is written by arrivals, the other when the place is read out, so that nothing needs two write
+// ports.
 module galpix_band #(
     parameter int COLUMN = 7,                  // bits of a column
     parameter int ROW = 4,

@@ -1,5 +1,5 @@
-// One round of bullets (specification, section 10): a hole with neighbours inside a surface becomes their mean. Cells in
-// raster order, one a clock; each comes out `columns` + 1 cells and seven clocks later.
+// One round of bullets (specification, section 10): a hole with neighbours inside a surface becomes their mean. Cells
+// in raster order, one a clock; each comes out `columns` + 1 cells and seven clocks later.
 module galpix_bullets #(
     parameter int COLUMN = 7,
     parameter int ROW = 4
@@ -47,14 +47,19 @@ module galpix_bullets #(
 
   // Clock 1: which neighbours count, and where each of the four that are added comes from: 0 to 3 for a to d.
   wire [3:0] sides = {
-    inside_surface(has[3], left[RECORD +: 2]), inside_surface(has[2], right[RECORD +: 2]), inside_surface(has[1], above[RECORD +: 2]),
+    inside_surface(has[3], left[RECORD +: 2]),
+    inside_surface(has[2], right[RECORD +: 2]),
+    inside_surface(has[1], above[RECORD +: 2]),
     inside_surface(has[0], below[RECORD +: 2])
   };
   wire [3:0] corners = {
-    inside_surface(has[3] && has[1], upper_left[RECORD +: 2]), inside_surface(has[2] && has[0], lower_right[RECORD +: 2]),
-    inside_surface(has[2] && has[1], upper_right[RECORD +: 2]), inside_surface(has[3] && has[0], lower_left[RECORD +: 2])
+    inside_surface(has[3] && has[1], upper_left[RECORD +: 2]),
+    inside_surface(has[2] && has[0], lower_right[RECORD +: 2]),
+    inside_surface(has[2] && has[1], upper_right[RECORD +: 2]),
+    inside_surface(has[3] && has[0], lower_left[RECORD +: 2])
   };
-  wire all_vacant = vacant(has[3], left[RECORD +: 2]) && vacant(has[2], right[RECORD +: 2]) && vacant(has[1], above[RECORD +: 2]) && vacant(has[0], below[RECORD +: 2]);
+  wire all_vacant = vacant(has[3], left[RECORD +: 2]) && vacant(has[2], right[RECORD +: 2])
+      && vacant(has[1], above[RECORD +: 2]) && vacant(has[0], below[RECORD +: 2]);
   wire diagonal = sides == 0 && all_vacant;
   logic diagonal_1;
   logic [4:1] there, bullet;

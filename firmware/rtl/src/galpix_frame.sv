@@ -1,5 +1,5 @@
-// A galpixmap in memory, and its frames (specification, section 11): `start` makes the next one, in place. One clock a
-// cell, and what the stream needs until its first and last cells are out.
+// A galpixmap in memory, and its frames (specification, section 11): `start` makes the next one, in place. One clock
+// a cell, and what the stream needs until its first and last cells are out.
 //
 // The host writes and reads the map while not `busy`. What the frame becomes is also given out as a stream, for a
 // display (`galpix_scan`); it may be stopped, and the frame then waits.

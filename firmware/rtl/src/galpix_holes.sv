@@ -1,9 +1,10 @@
-// What is left open after the rounds of bullets takes what its fill mode says (specification, section 10). Cells come in
-// raster order, one a clock; with EXTEND each comes out two rows and six clocks later, else six clocks later.
+// What is left open after the rounds of bullets takes what its fill mode says (specification, section 10). Cells come
+// in raster order, one a clock; with EXTEND each comes out two rows and six clocks later, else six clocks later.
 //
 // EXTEND looks for the nearest cell on both sides of a hole. The right one is found when the row is read backwards,
-// while the next row comes in, and used while the one after that does. Rows that are written one way and read the other
-// need no second copy: what is read at a place is replaced there, and every row turns the direction of the places.
+// while the next row comes in, and used while the one after that does. Rows that are written one way and read the
+// other need no second copy: what is read at a place is replaced there, and every row turns the direction of the
+// places.
 module galpix_holes #(
     parameter int COLUMN = 7,
     parameter int ROW = 4,
@@ -41,8 +42,8 @@ module galpix_holes #(
     held = state_of != HOLE && state_of != FRESH;
   endfunction
 
-  // Clock 0: `tick` reads the memories. Clock 1: their words are registered. Clock 2: the cell, `item`, and the nearest
-  // ones to its left and right, each with a bit that says whether there is one.
+  // Clock 0: `tick` reads the memories. Clock 1: their words are registered. Clock 2: the cell, `item`, and the
+  // nearest ones to its left and right, each with a bit that says whether there is one.
   logic tick, there, there_1, there_2, last, last_1, last_2;
   logic [ITEM-1:0] item;
   logic [RECORD:0] left, right;

@@ -1,5 +1,5 @@
-// The step of a whole galpixel (specification, section 5): one a clock, three clocks long. Adders and shifts by constants
-// alone. The widths and places of the fields are those of the package `galpixel`.
+// The step of a whole galpixel (specification, section 5): one a clock, three clocks long. Adders and shifts by
+// constants alone. The widths and places of the fields are those of the package `galpixel`.
 module galpix_lane #(
     parameter int X_T = galpixel::X_VF + 1 > galpixel::X_P ? galpixel::X_VF + 1 - galpixel::X_P : 1,
     parameter int Y_T = galpixel::Y_VF + 1 > galpixel::Y_P ? galpixel::Y_VF + 1 - galpixel::Y_P : 1,

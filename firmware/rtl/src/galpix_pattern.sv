@@ -1,5 +1,5 @@
-// A camera that sends a test pattern: galpixels of bars, and of a box in front that moves by one and a half cells to the
-// right and half a cell down in each frame. One a clock in raster order while `next` holds.
+// A camera that sends a test pattern: galpixels of bars, and of a box in front that moves by one and a half cells to
+// the right and half a cell down in each frame. One a clock in raster order while `next` holds.
 module galpix_pattern #(
     parameter int COLUMN = 6,
     parameter int ROW = 6

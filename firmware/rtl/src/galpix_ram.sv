@@ -1,5 +1,6 @@
 // A memory with one write port and one read port. What is read is registered, and held while `read` is low. No user
-// reads and writes one place in one clock and needs either word, so that it maps to block memory without further logic.
+// reads and writes one place in one clock and needs either word, so that it maps to block memory without further
+// logic.
 module galpix_ram #(
     parameter int BITS = 8,
     parameter int ADDRESS = 8

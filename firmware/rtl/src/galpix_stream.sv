@@ -1,5 +1,5 @@
-// One frame of a galpixmap (specification, section 11) as a stream: galpixels of the front map in raster order in, those
-// of the new map out, one a clock. No map is stored, only the band of rows that galpixels move in.
+// One frame of a galpixmap (specification, section 11) as a stream: galpixels of the front map in raster order in,
+// those of the new map out, one a clock. No map is stored, only the band of rows that galpixels move in.
 //
 //   front ─▶ edge map ─▶ step ─▶ band of rows, resolved ─▶ rounds of bullets ─▶ holes ─▶ new map
 //      └────────────────── rows of the front map that holes may still ask for ───────┘
@@ -49,8 +49,9 @@ module galpix_stream #(
 
   logic enable, band_ready, holes_done;
 
-  // --- What comes in -------------------------------------------------------------------------------------------------
-  // A row may enter if neither the band nor the rows for holes still need its place for an older one.
+  // --- What comes in
+  // ------------------------------------------------------------------------------------------------- A row may enter
+  // if neither the band nor the rows for holes still need its place for an older one.
   logic [COLUMN-1:0] in_column;
   logic [ROW-1:0] in_row;
   logic taking, room, active;
@@ -99,7 +100,8 @@ module galpix_stream #(
       end
     end
 
-  // --- The front map's rows for holes --------------------------------------------------------------------------------
+  // --- The front map's rows for holes
+  // --------------------------------------------------------------------------------
   logic ask;
   logic [ROW-1:0] ask_row;
   logic [COLUMN-1:0] ask_column;
@@ -130,15 +132,16 @@ module galpix_stream #(
   end
   assign hole_row = ask_row;
 
-  // --- Edges, and the galpixel that makes its step -------------------------------------------------------------------
+  // --- Edges, and the galpixel that makes its step
+  // -------------------------------------------------------------------
   logic stepping;
   logic [RECORD-1:0] galpixel_now;
   logic [ROW-1:0] row_now;
   logic [COLUMN-1:0] column_now;
   logic edge_early, on_edge;                   // a clock before the step's result, and with it
   if (SURFACES) begin : edges
-    // The window has class and depth alone; the galpixel waits beside it in two rows, or in more where a row is so short
-    // that a place would be written as it is read.
+    // The window has class and depth alone; the galpixel waits beside it in two rows, or in more where a row is so
+    // short that a place would be written as it is read.
     localparam int KEY = DEPTH + 2;
     logic [KEY-1:0] key, left, right, above, below, centre, a, b, c, d;
     logic [3:0] has;
@@ -179,7 +182,8 @@ module galpix_stream #(
     wire unused = &{1'b0, edge_threshold};
   end
 
-  // --- Step ----------------------------------------------------------------------------------------------------------
+  // --- Step
+  // ----------------------------------------------------------------------------------------------------------
   localparam int X_DOWN = galpixel::X_VF + 1 > galpixel::X_P ? galpixel::X_VF + 1 - galpixel::X_P : 0;
   localparam int Y_DOWN = galpixel::Y_VF + 1 > galpixel::Y_P ? galpixel::Y_VF + 1 - galpixel::Y_P : 0;
   localparam int Z_DOWN = galpixel::Z_VF + 1 > galpixel::Z_P ? galpixel::Z_VF + 1 - galpixel::Z_P : 0;
@@ -227,7 +231,8 @@ module galpix_stream #(
   assign edge_valid = enable && stepped[2];
   assign edge_bit = on_edge;
 
-  // --- Where it arrives: the sum, then whether that is on the map ----------------------------------------------------
+  // --- Where it arrives: the sum, then whether that is on the map
+  // ----------------------------------------------------
   localparam int X_SUM = (COLUMN + 1 > galpixel::X_CELLS ? COLUMN + 1 : galpixel::X_CELLS) + 1;
   localparam int Y_SUM = (ROW + 1 > galpixel::Y_CELLS ? ROW + 1 : galpixel::Y_CELLS) + 1;
   localparam int Y_MOST = (ROW + 2 > galpixel::Y_CELLS + 1 ? ROW + 2 : galpixel::Y_CELLS + 1);
@@ -261,7 +266,8 @@ module galpix_stream #(
       if (too_far && arriving && on_map) beyond <= 1'b1;
     end
 
-  // --- Resolution ----------------------------------------------------------------------------------------------------
+  // --- Resolution
+  // ----------------------------------------------------------------------------------------------------
   logic collided, resolved, winner;
   logic [1:0] resolved_state;
   logic [RECORD-1:0] resolved_record;
@@ -272,7 +278,8 @@ module galpix_stream #(
   );
   wire unused_winner = &{1'b0, winner};
 
-  // --- Bullets and holes ---------------------------------------------------------------------------------------------
+  // --- Bullets and holes
+  // ---------------------------------------------------------------------------------------------
   localparam int STAGES = SURFACES ? ROUNDS : 0;
   logic [STAGES:0] round_valid;
   logic [2*STAGES+1:0] round_state;
@@ -303,8 +310,9 @@ module galpix_stream #(
       .out_record(new_record), .filled, .done(holes_done)
   );
 
-  // --- What goes out -------------------------------------------------------------------------------------------------
-  // Four places take what is under way when the receiver stops: `enable` follows a clock later.
+  // --- What goes out
+  // ------------------------------------------------------------------------------------------------- Four places
+  // take what is under way when the receiver stops: `enable` follows a clock later.
   logic [RECORD-1:0] waiting_out[4];
   logic [1:0] put_at, get_at;
   logic [2:0] waiting_count;
@@ -335,7 +343,8 @@ module galpix_stream #(
     end
   end
 
-  // --- Counts --------------------------------------------------------------------------------------------------------
+  // --- Counts
+  // --------------------------------------------------------------------------------------------------------
   if (COUNTERS) begin : counters
     logic [4:0] bullets;
     always_comb begin

@@ -4,8 +4,8 @@
 //   beside_left centre beside_right       which neighbours there are.
 //   below_left  below  below_right
 //
-// The items of a map may come with gaps; those of the next one only after `done`. A window comes `columns` + 1 items and
-// two clocks after its centre; the last ones need no further items. Two rows of memory.
+// The items of a map may come with gaps; those of the next one only after `done`. A window comes `columns` + 1 items
+// and two clocks after its centre; the last ones need no further items. Two rows of memory.
 module galpix_window #(
     parameter int BITS = 8,
     parameter int COLUMN = 7,                  // bits of a column
