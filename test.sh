@@ -14,7 +14,7 @@ export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package fuzz firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs rtl benches msrv package fuzz firmware)
 QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
@@ -48,6 +48,15 @@ install_missing() {
             echo "valgrind is missing: install it, for example with: sudo apt-get install valgrind" >&2
         fi
     fi
+    if ! command -v iverilog >/dev/null || ! command -v verilator >/dev/null || ! command -v yosys >/dev/null; then
+        if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+            say "tools for logic are missing: installing iverilog, verilator, yosys and nextpnr-ice40"
+            apt-get update -qq && apt-get install -y -qq --no-install-recommends iverilog verilator yosys nextpnr-ice40 ||
+                echo "they could not be installed" >&2
+        else
+            echo "tools for logic are missing: install them, for example with: sudo apt-get install iverilog verilator yosys" >&2
+        fi
+    fi
     for target in "${BARE_TARGETS[@]}" "${FIRMWARE_TARGETS[@]}"; do
         installed "$target" && continue
         say "the target $target is missing: rustup target add"
@@ -71,6 +80,7 @@ step_format() {
     cargo fmt --manifest-path tests/codegen/Cargo.toml -- --check
     cargo fmt --manifest-path tests/fuzz/Cargo.toml -- --check
     bash -n tests/proofs/run.sh
+    bash -n firmware/rtl/test.sh
 }
 
 # Comments and text wrap at 120 columns: rustfmt does not look at them. Tables, pictures, links and code blocks do not
@@ -78,7 +88,7 @@ step_format() {
 wide_lines() {
     case "$1" in
         *.md) awk '/^ *```/ { fence = !fence } !fence && !/^ *[|!]/ && !/https?:/' "$1" ;;
-        *.rs) grep -E '^ *//' "$1" ;;
+        *.rs | *.sv) grep -E '^ *//' "$1" ;;
         *) grep -E '^ *#' "$1" ;;
     esac | LC_ALL=C.UTF-8 grep -E '^.{121,}$'
 }
@@ -88,7 +98,7 @@ step_width() {
     while IFS= read -r file; do
         lines="$(wide_lines "$file" || true)"
         [ -z "$lines" ] || { printf '%s, beyond 120 columns:\n%s\n' "$file" "$lines"; status=1; }
-    done < <(git ls-files '*.rs' '*.md' '*.sh' '*.py' '*.toml')
+    done < <(git ls-files '*.rs' '*.sv' '*.md' '*.sh' '*.py' '*.toml')
     return "$status"
 }
 
@@ -148,7 +158,7 @@ step_model() {
     for seed in 0 1 2; do
         cargo run --locked --quiet --release -- vectors --seed "$seed" --out "target/vectors/$seed"
         PYTHONDONTWRITEBYTECODE=1 python3 tests/model/check_vectors.py "target/vectors/$seed" \
-            "$([ "$seed" = 0 ] && echo --require-all-rules || echo --)" &
+            $([ "$seed" != 0 ] || echo --require-all-rules --coverage) &
         checks+=($!)
     done
     for check in "${checks[@]}"; do wait "$check"; done
@@ -159,6 +169,14 @@ step_proofs() {
     local status=0
     tests/proofs/run.sh --quick || status=$?
     [ "$status" != 3 ] || { skip "python3, or the solver from its package registry, cannot be had here"; return; }
+    return "$status"
+}
+
+# The reference design in logic: lint, all vectors of its kinds, proofs, planted faults, synthesis.
+step_rtl() {
+    local status=0
+    firmware/rtl/test.sh || status=$?
+    [ "$status" != 3 ] || { skip "some steps of firmware/rtl/test.sh could not run, see above"; return; }
     return "$status"
 }
 

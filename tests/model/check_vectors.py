@@ -1,8 +1,9 @@
 """Check a folder of golden vectors (vectors.md) against the model: every hash, every file, every output, bit by bit.
 
-    python3 check_vectors.py DIR [--require-all-rules]
+    python3 check_vectors.py DIR [--require-all-rules] [--coverage]
 
-Exit code 0: all agree. 1: something differs, or (with --require-all-rules) some rule was never reached. 2: the folder
+Exit code 0: all agree. 1: something differs, or (with --require-all-rules) some rule was never reached, or (with
+--coverage) nothing exercises a section of the specification. 2: the folder
 cannot be read as vectors; one sentence on stderr says why.
 """
 
@@ -10,9 +11,11 @@ import argparse
 import hashlib
 import json
 import sys
+import zlib
 from collections import Counter, namedtuple
 from pathlib import Path
 
+import coverage
 import galpix_model as model
 
 SHOWN_OF_A_CASE = 5
@@ -95,7 +98,7 @@ def get_choice(mapping, key, choices, where):
 
 
 def read_hex(data, path):
-    """The words of a .hex file; lines that begin with // are comments."""
+    """The words of a .hex file, the first of a number the most significant; lines that begin with // are comments."""
     words = []
     try:
         lines = data.decode("ascii").splitlines()
@@ -104,9 +107,9 @@ def read_hex(data, path):
     for number, line in enumerate(lines, 1):
         if line.startswith("//"):
             continue
-        if len(line) != 8 or not set(line) <= set("0123456789abcdefABCDEF"):
-            raise Broken(f"{path}, line {number}: not 8 hexadecimal digits")
-        words.append(int(line, 16))
+        if not line or len(line) % 8 or not set(line) <= set("0123456789abcdefABCDEF"):
+            raise Broken(f"{path}, line {number}: not 8 hexadecimal digits a word")
+        words += [int(line[at:at + 8], 16) for at in range(0, len(line), 8)]
     return words
 
 
@@ -231,6 +234,31 @@ def check_step(case, where, differences):
     return Checked(0, 5 * len(results)), arrays
 
 
+def check_propagate(case, where, differences):
+    engine = read_engine(case, where)
+    record = engine.record
+    compare_record(case, record, where, differences)
+    rounding = get_choice(case, "rounding", model.ROUNDINGS, where)
+    galpixels, results = get(case, "galpixels", list, where), get(case, "results", list, where)
+    if len(galpixels) != len(results):
+        raise Broken(f"{where}: {len(galpixels)} galpixels, but {len(results)} results")
+    arrays = {name: [] for name in ("frame", "before", "after", "x_cells", "y_cells", "saturated")}
+    for index, (given, expected) in enumerate(zip(galpixels, results)):
+        here = f"{where}, galpixel {index}"
+        n, before = get_int(given, "frame", here), get_words(given, "words", here, record.words)
+        after = get_words(expected, "words", here, record.words)
+        got, right, down, saturated = model.step_galpixel(engine, model.unpack(before, record),
+                                                          model.thresholds_of(engine, rounding, n))
+        cells = get(expected, "cells", list, here)
+        compare_map("galpixel", after, [got], engine, here, differences)
+        compare_numbers("cells", cells, [right, down], here, differences)
+        compare_numbers("saturated", [get_int(expected, "saturated", here)], [saturated], here, differences)
+        for name, words in (("frame", [n]), ("before", before), ("after", after), ("x_cells", low_words(cells[:1])),
+                            ("y_cells", low_words(cells[1:])), ("saturated", [saturated])):
+            arrays[name] += words
+    return Checked(0, len(arrays["after"]) + 3 * len(results)), arrays
+
+
 def check_resolve(case, where, differences):
     engine = read_engine(case, where)
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
@@ -252,7 +280,12 @@ def check_resolve(case, where, differences):
     compare_map("map", arrays["map"], back, engine, where, differences)
     compare_numbers("winner", arrays["winners"], winners, where, differences)
     compare_counts(case, counts, where, differences)
+    arrays["counts"] = count_words(case)
     return Checked(0, len(arrays["map"]) + cells + len(model.COUNTS)), arrays
+
+
+def count_words(mapping):
+    return [mapping["counts"][name] for name in model.COUNTS]
 
 
 def check_edge(case, where, differences):
@@ -268,7 +301,7 @@ def check_edge(case, where, differences):
         if expected[-1] >> ((cells - 1) % 32 + 1):
             differences.add(f"{where}: bits beyond the last cell of the edge map are set")
     compare_counts(case, {"edges": sum(edges)}, where, differences)
-    return Checked(0, cells + len(model.COUNTS)), {"front": front, "edges": expected}
+    return Checked(0, cells + len(model.COUNTS)), {"front": front, "edges": expected, "counts": count_words(case)}
 
 
 def check_fill(case, where, differences):
@@ -288,10 +321,26 @@ def check_fill(case, where, differences):
     compare_map("map", arrays["map"], galpixels, engine, where, differences)
     compare_numbers("winner after", arrays["winners_after"], winners, where, differences)
     compare_counts(case, counts, where, differences)
+    arrays["counts"] = count_words(case)
     return Checked(0, len(arrays["map"]) + cells + len(model.COUNTS)), arrays
 
 
-def check_frame(case, where, differences, manifest_hashes):
+def stages_of(engine, before, rounding, edge_threshold, n):
+    """What the stages of a frame give, as arrays: whatever the fill mode, with an edge map."""
+    record, cells = engine.record, len(before)
+    arrivals, _ = model.propagate(engine, before, rounding, n)
+    resolved, winners, _ = model.resolve(arrivals, cells)
+    return {
+        "edges": model.edge_words(model.edge_map(before, engine.grid, edge_threshold)),
+        "source": [arrival.source for arrival in arrivals],
+        "cell": [WORD - 1 if arrival.cell is None else arrival.cell for arrival in arrivals],
+        "arrivals": [word for arrival in arrivals for word in model.pack(arrival.galpixel, record)],
+        "winners": winners,
+        "resolved": model.pack_map(resolved, record),
+    }
+
+
+def check_frame(case, where, differences, manifest):
     engine = read_engine(case, where)
     record, cells = engine.record, model.columns(engine.grid) * model.rows(engine.grid)
     compare_record(case, record, where, differences)
@@ -302,22 +351,33 @@ def check_frame(case, where, differences, manifest_hashes):
     arrays = {"front": get_words(case, "front", where, record.words * cells)}
     galpixels = model.unpack_map(arrays["front"], record, cells)
     frames = get(case, "frames", list, where)
+    manifest_hashes, checksums = manifest
+    arrays["counts"] = [word for entry in frames for word in count_words(entry)]
+    arrays["crc32"] = checksums
+    if len(checksums) != len(frames):
+        differences.add(f"{where}: {len(frames)} frames, but {len(checksums)} checksums in the manifest")
     if len(frames) != len(manifest_hashes):
         differences.add(f"{where}: {len(frames)} frames, but {len(manifest_hashes)} hashes of frames in the manifest")
-    numbers = 0
+    numbers, optional = 0, {}
     for number, entry in enumerate(frames, 1):
         here = f"{where}, frame {number}"
         expected = arrays[f"map_{number}"] = get_words(entry, "map", here, record.words * cells)
+        before, counter = galpixels, n
         galpixels, n, counts = model.frame(engine, galpixels, n, rounding, fill_mode, reach, edge_threshold)
+        optional[number] = lambda before=before, counter=counter: stages_of(engine, before, rounding, edge_threshold,
+                                                                           counter)
         got = compare_map("map", expected, galpixels, engine, here, differences)
         compare_counts(entry, counts, here, differences)
         digest = model.frame_hash(got)
+        checksum = zlib.crc32(b"".join(word.to_bytes(4, "little") for word in got))
+        if number <= len(checksums) and checksums[number - 1] != checksum:
+            differences.add(f"{here}, CRC-32: expected {checksums[number - 1]}, got {checksum}")
         if get(entry, "sha256", str, here) != digest:
             differences.add(f"{here}, hash: expected {entry['sha256']}, got {digest}")
         if number <= len(manifest_hashes) and manifest_hashes[number - 1] != digest:
             differences.add(f"{here}, hash in the manifest: expected {manifest_hashes[number - 1]}, got {digest}")
-        numbers += len(expected) + len(model.COUNTS) + 1
-    return Checked(len(frames), numbers), arrays
+        numbers += len(expected) + len(model.COUNTS) + 2
+    return Checked(len(frames), numbers), Arrays(arrays, optional, record.words)
 
 
 def check_inpaint(case, where, differences):
@@ -554,11 +614,12 @@ def check_source(case, where, differences):
     return Checked(steps, numbers + len(model.COUNTS)), arrays
 
 
-CHECKS = {"step": check_step, "resolve": check_resolve, "edge": check_edge, "fill": check_fill, "frame": check_frame,
-          "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects,
+CHECKS = {"step": check_step, "propagate": check_propagate, "resolve": check_resolve, "edge": check_edge,
+          "fill": check_fill, "frame": check_frame, "inpaint": check_inpaint, "layers": check_layers, "objects": check_objects,
           "disocclusion": check_disocclusion, "subcell": check_subcell, "source": check_source}
 COMPARED = {
     "step": "positions, cells, offsets, velocities, saturation",
+    "propagate": "records, galpixels, cells, saturation",
     "resolve": "records, maps, winners, counts",
     "edge": "records, edges, counts",
     "fill": "records, maps, winners, counts",
@@ -571,6 +632,24 @@ COMPARED = {
     "source": "records, links, galpixels and displacements after steps, entries, what is inpainted, colours gathered "
               "and shown, counts",
 }
+
+
+class Arrays(dict):
+    """The arrays of a frame case, with those that stand in the folder only if they were asked for."""
+
+    def __init__(self, arrays, stages, words):
+        super().__init__(arrays)
+        self.stages, self.words = stages, words
+
+    def asked_for(self, name):
+        """An array of a stage, or a map with a record a line; None if there is none of this name."""
+        if name.endswith("_records"):
+            planes = self.get(name.removesuffix("_records"))
+            cells = len(planes) // self.words if planes else 0
+            return planes and [planes[word * cells + cell] for cell in range(cells) for word in range(self.words)]
+        array, _, number = name.rpartition("_")
+        stages = self.stages.get(int(number)) if number.isdecimal() else None
+        return stages().get(array) if stages else None
 
 
 # --- The folder ------------------------------------------------------------------------------------------------------
@@ -603,7 +682,11 @@ def check_hex(name, arrays, contents, differences):
             place = next((i for i, (x, y) in enumerate(zip(got, words)) if x != y), min(len(got), len(words)))
             differences.add(f"{path} and case.json differ from word {place} on")
     for path in sorted(files):
-        differences.add(f"{path} is none of the arrays of the case")
+        words = arrays.asked_for(Path(path).stem) if isinstance(arrays, Arrays) else None
+        if words is None:
+            differences.add(f"{path} is none of the arrays of the case")
+        elif read_hex(contents[path], path) != words:
+            differences.add(f"{path} is not what the model has")
 
 
 def check_case(folder, entry, differences):
@@ -622,7 +705,8 @@ def check_case(folder, entry, differences):
     hashes = get(entry, "frames", list, where) if "frames" in entry else []
     try:
         if kind == "frame":
-            checked, arrays = check_frame(case, where, differences, hashes)
+            checksums = get(entry, "crc32", list, where)
+            checked, arrays = check_frame(case, where, differences, (hashes, checksums))
         else:
             if hashes:
                 differences.add(f"{where}: hashes of frames in the manifest, but it is no frame case")
@@ -664,6 +748,8 @@ def main():
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--require-all-rules", action="store_true",
                         help="fail if any rule that vectors can reach was never reached")
+    parser.add_argument("--coverage", action="store_true",
+                        help="print what exercises each section of the specification; fail if one is exercised by nothing")
     arguments = parser.parse_args()
     differences = Differences()
     try:
@@ -688,6 +774,10 @@ def main():
         for rule in never:
             print(f"  never reached: {rule}")
         code = 1 if never else code
+    if arguments.coverage:
+        lines, missing = coverage.table(model.RULES, model.reached)
+        print(*lines, *missing, sep="\n")
+        code = 1 if missing else code
     if not differences:
         print(f"{sum(cases.values())} cases, {sum(frames.values())} frames agree")
     return code

@@ -8,6 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::choices::{RoundingChoice, pixels};
+use super::logic::{self, Display, LogicReport};
 use super::{CliError, print, print_json};
 use crate::certificate::{Certificate, Method, shown_off_px, smallest};
 use crate::engine::ScanOut;
@@ -28,6 +29,11 @@ const LAYOUTS: [LayoutChoice; 7] = [
     LayoutChoice("velocity-gray8", Layout::VELOCITY_GRAY8, "x and y with velocity only, 8-bit gray, 8-bit z"),
     LayoutChoice("velocity-gray4", Layout::VELOCITY_GRAY4, "x and y with velocity only, 4-bit gray, 4-bit z"),
 ];
+
+/// Returns a layout by its name.
+pub fn layout(name: &str) -> Option<Layout> {
+    LAYOUTS.iter().find(|choice| choice.0 == name).map(|choice| choice.1)
+}
 
 impl Default for LayoutChoice {
     fn default() -> Self {
@@ -77,9 +83,27 @@ pub struct Budget {
     /// Instead of the equations' fraction bits, the fewest whose certificate is at most this, in pixels
     #[arg(long, value_name = "PX", value_parser = pixels, conflicts_with = "shave")]
     max_error: Option<f64>,
+    /// Integer bits of the motion in y so that no galpixel moves by more rows in a frame: the band that logic keeps
+    #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u32).range(1..))]
+    limit_y: Option<u32>,
+    /// The map that memory and traffic are printed for
+    #[arg(long, value_name = "WxH", default_value = "1024x768", value_parser = size)]
+    size: Option<[u32; 2]>,
+    /// Frames a second for them
+    #[arg(long, value_name = "HZ", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    rate: u32,
     /// Print JSON
     #[arg(long)]
     json: bool,
+}
+
+/// Reads a size in cells.
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text.split_once('x').map(|(width, height)| [width, height].map(|side| side.parse::<u32>().ok()));
+    match sides {
+        Some([Some(width @ 1..=32768), Some(height @ 1..=32768)]) => Ok([width, height]),
+        _ => Err("give columns and rows, for example 320x240, each 1 to 32768".to_owned()),
+    }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -131,6 +155,20 @@ pub struct Printed {
     displayed: DisplayedReport,
     /// The same widths with each rounding.
     roundings: Vec<RoundingReport>,
+    /// The widths in y: those of x, above, unless its reach is limited.
+    y: ComponentReport,
+    /// What it asks of logic.
+    logic: LogicReport,
+}
+
+/// Widths of a component.
+#[derive(Serialize, JsonSchema)]
+struct ComponentReport {
+    position_frac_bits: u32,
+    velocity_int_bits: u32,
+    velocity_frac_bits: u32,
+    acceleration_int_bits: u32,
+    acceleration_frac_bits: u32,
 }
 
 /// How far in x and in y a galpixel is shown at most from where it should be, in pixels: the certificate's total and
@@ -185,8 +223,12 @@ impl Budget {
             None => bits.x.shaved(shave(&self.shave)).map_err(impossible)?,
         };
         let z = bits.z.shaved(shave(&self.shave_z)).map_err(impossible)?;
-        let bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
+        let mut bits = bits.with_xy(plane, plane).with_z(z, bits.depth_int);
+        if let Some(limit) = self.limit_y {
+            bits = logic::limited(bits, limit, |bits| Record::plan(bits, layout).ok()).map_err(CliError::Unusable)?;
+        }
         let record = Record::plan(bits, layout).map_err(impossible)?;
+        let [columns, rows] = self.size.unwrap_or([1024, 768]);
         let certify = |rounding| Certificate::of(&record.scales[0], layout.acceleration, rounding, self.prop);
         let certificate = certify(rounding);
         let roundings = Rounding::ALL.map(|rounding| {
@@ -221,6 +263,14 @@ impl Budget {
             },
             certificate,
             roundings: roundings.into(),
+            y: ComponentReport {
+                position_frac_bits: bits.y.position_frac,
+                velocity_int_bits: bits.y.velocity_int,
+                velocity_frac_bits: bits.y.velocity_frac,
+                acceleration_int_bits: bits.y.acceleration_int,
+                acceleration_frac_bits: bits.y.acceleration_frac,
+            },
+            logic: LogicReport::of(&record, Display { columns, rows, rate: self.rate }),
         })
     }
 }
@@ -286,6 +336,15 @@ fn text(printed: &Printed) -> String {
             other.rounding, other.drift_px, other.total_px
         ));
     }
+    let y = &printed.y;
+    if (y.velocity_int_bits, y.acceleration_int_bits) != (report.velocity_int_bits, report.acceleration_int_bits) {
+        text.push_str(&format!(
+            "in y the integer bits are {} of the velocity and {} of the acceleration; fractions and certificate are \
+             those of x\n",
+            y.velocity_int_bits, y.acceleration_int_bits
+        ));
+    }
+    text.push_str(&printed.logic.text());
     let promise = if printed.keeps_one_pixel { "holds" } else { "does not hold" };
     text.push_str(&format!(
         "The paper's promise of one pixel for {} frames {promise}. On the screen: {:.4} px in whole cells (nearest), {:.4} \

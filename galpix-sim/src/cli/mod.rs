@@ -16,8 +16,10 @@ mod graft;
 mod hidden;
 mod init;
 mod layers;
+mod logic;
 mod plan;
 mod progress;
+mod rtl;
 mod run;
 mod scenes;
 mod schema;
@@ -122,6 +124,8 @@ enum Command {
     Scenes(scenes::Scenes),
     /// Writes golden vectors for other implementations and for test benches in logic
     Vectors(vectors::Vectors),
+    /// Writes a budget as parameters of the reference design in logic
+    Rtl(rtl::Rtl),
     /// Prints the completions of a shell
     Completions(describe::Completions),
     /// Prints the manual page, or writes one for each command
@@ -156,6 +160,7 @@ pub fn main() -> ExitCode {
         Command::Schema(schema) => schema.run(),
         Command::Scenes(scenes) => scenes.run(),
         Command::Vectors(vectors) => vectors.run(),
+        Command::Rtl(rtl) => rtl.run(),
         Command::Completions(completions) => completions.run(),
         Command::Man(man) => man.run(),
     };

@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema as Derived};
 
 use super::document::Failure;
-use super::{CliError, budget, init, print, scenes, vectors};
+use super::{CliError, budget, init, print, rtl, scenes, vectors};
 use crate::send;
 use crate::study::{self, Headed, check, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
 
@@ -28,6 +28,7 @@ pub enum Kind {
     Send,
     Scenes,
     Vectors,
+    Rtl,
     /// What a command prints that failed, whichever it was
     Failure,
 }
@@ -60,6 +61,7 @@ impl Schema {
             Kind::Send => of::<Headed<'_, send::Report>>(),
             Kind::Scenes => of::<Headed<'_, scenes::List>>(),
             Kind::Vectors => of::<Headed<'_, vectors::Written>>(),
+            Kind::Rtl => of::<Headed<'_, rtl::Package>>(),
             Kind::Failure => of::<Headed<'_, Failure>>(),
         };
         print(&serde_json::to_string_pretty(&schema).map_err(|error| CliError::Failed(error.to_string()))?)

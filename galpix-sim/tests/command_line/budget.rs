@@ -52,6 +52,45 @@ fn budget_as_json_has_the_keys_others_rely_on() {
     }
 }
 
+/// The figures that logic asks for, by hand: at 9 bits with sign and no fraction of an acceleration, 128 cells a frame.
+#[test]
+fn a_budget_says_what_logic_asks_first() {
+    let folder = folder();
+    let all = ["budget", "--layout", "velocity565", "--json", "--limit-y", "8"];
+    let budget = json(folder.path(), &all);
+    let logic = &budget["logic"];
+    assert_eq!((logic["reach_columns"].as_u64(), logic["reach_rows"].as_u64()), (Some(128), Some(8)));
+    assert_eq!((logic["band_rows"].as_u64(), logic["band_bytes"].as_u64()), (Some(19), Some(19 * 1024 * 8)));
+    assert_eq!(logic["bytes_a_second"].as_u64(), Some(1024 * 768 * 60 * 8));
+    assert_eq!(budget["certificate"], json(folder.path(), &all[..4])["certificate"], "only the range is cut");
+    assert_eq!(json(folder.path(), &all[..4])["logic"]["reach_rows"].as_u64(), Some(128));
+    refused(folder.path(), &["budget", "--limit-y", "1"], &["--limit-y"]);
+    refused(folder.path(), &["budget", "--size", "0x4"], &["--size", "320x240"]);
+}
+
+/// The package says what the JSON says, and nothing else is a budget.
+#[test]
+fn a_budget_becomes_a_package_for_logic() {
+    let folder = folder();
+    let text = done(folder.path(), &["budget", "--layout", "velocity565", "--limit-y", "8", "--json"]);
+    std::fs::write(folder.path().join("budget.json"), text).expect("the budget");
+    let written = json(folder.path(), &["rtl", "--budget", "budget.json", "--out", "rtl", "--json"]);
+    assert_eq!((written["record_bits"].as_u64(), written["reach_rows"].as_u64()), (Some(64), Some(8)));
+    let package = std::fs::read_to_string(folder.path().join("rtl/galpixel.sv")).expect("the package");
+    for line in
+        ["package galpixel;", "localparam int X_VI = 8;", "localparam int Y_VI = 4;", "localparam int Y_REACH = 8;"]
+    {
+        assert!(package.lines().any(|written| written.trim() == line), "{line}: {package}");
+    }
+    std::fs::write(folder.path().join("other.json"), "{\"kind\": \"plan\"}").expect("another document");
+    refused(
+        folder.path(),
+        &["rtl", "--budget", "other.json", "--out", "rtl"],
+        &["is no budget", "galpix budget --json"],
+    );
+    refused(folder.path(), &["rtl", "--budget", "nowhere.json", "--out", "rtl"], &["is no budget"]);
+}
+
 #[test]
 fn a_budget_that_cannot_exist_is_refused_with_a_remedy() {
     let folder = folder();

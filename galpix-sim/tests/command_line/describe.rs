@@ -41,6 +41,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
     }
     done(folder.path(), &["schema", "compare"]);
     done(folder.path(), &["schema", "vectors"]);
+    done(folder.path(), &["schema", "rtl"]);
     done(folder.path(), &["schema", "demo"]);
     done(folder.path(), &["schema", "send"]);
     done(folder.path(), &["schema", "failure"]);

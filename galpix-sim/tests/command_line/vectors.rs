@@ -25,6 +25,7 @@ fn vectors_are_written_whole_and_again_the_same() {
         one["cases"].as_array().expect("cases").iter().filter_map(|case| case["kind"].as_str()).collect();
     let known = [
         "step",
+        "propagate",
         "resolve",
         "edge",
         "fill",
@@ -43,7 +44,18 @@ fn vectors_are_written_whole_and_again_the_same() {
         }
     }
     assert!(folder.path().join("a/schema.json").is_file() && folder.path().join("a/hashes.txt").is_file());
+    let few =
+        manifest_of(&read, done(folder.path(), &["vectors", "--out", "d", "--kind", "frame", "--layout", "gray4"]));
+    assert!(few.iter().all(|name| name.starts_with("frame-gray4-")) && few.len() > 10, "{few:?}");
+    refused(folder.path(), &["vectors", "--out", "d", "--kind", "none"], &["no such case", "--kind"]);
     std::fs::write(folder.path().join("file"), "kept").expect("a file");
     refused(folder.path(), &["vectors", "--out", "file"], &["cannot be written", "--out"]);
     assert_eq!(std::fs::read_to_string(folder.path().join("file")).expect("the file"), "kept");
+}
+
+/// Returns the names of the cases of a manifest.
+fn manifest_of(read: &impl Fn(&str) -> Value, printed: String) -> Vec<String> {
+    let manifest = read(printed.trim());
+    let cases = manifest["cases"].as_array().expect("cases");
+    cases.iter().filter_map(|case| case["name"].as_str().map(str::to_owned)).collect()
 }

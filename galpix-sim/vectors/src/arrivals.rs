@@ -41,6 +41,14 @@ pub fn arrivals<F: Format>(front: &Galpixmap<'_, F>, rounding: Rounding, frame: 
     arrivals
 }
 
+/// Returns a galpixel after its step, the cells that it moves along x and y, and its fields that were clamped.
+pub fn moved(record: &Record, rounding: Rounding, frame: u32, words: Words) -> (Words, [i32; 2], u32) {
+    let thresholds = record.scales.map(|scale| rounding.threshold(frame, scale.down));
+    let mut step = Step { record, thresholds, words, saturated: 0 };
+    let cells = step.advance();
+    (step.words, cells, step.saturated)
+}
+
 /// Settles arrivals into a map, whatever order they come in. Both `back` and `winners` are cleared first.
 ///
 /// `winners` has a word for each cell: the source of the galpixel that got the cell, [`NO_WINNER`] where none did.

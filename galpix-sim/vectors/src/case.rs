@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::disocclusion::Disocclusion;
 use crate::layered::Layers;
 use crate::objects::Objects;
+use crate::rtl;
 use crate::source::StationarySources;
 use crate::sub_cell::SubCell;
 
@@ -27,12 +28,14 @@ pub struct Manifest {
 pub struct Entry {
     /// The case's name and folder.
     pub name: String,
-    /// step, resolve, edge, fill, frame, inpaint, layers, objects, disocclusion, subcell or source.
+    /// step, propagate, resolve, edge, fill, frame, inpaint, layers, objects, disocclusion, subcell or source.
     pub kind: String,
     /// Its files.
     pub files: Vec<FileHash>,
     /// The hash of each frame; empty for the other kinds.
     pub frames: Vec<String>,
+    /// The CRC-32 of each frame, of the same bytes.
+    pub crc32: Vec<u32>,
 }
 
 /// A file and its SHA-256.
@@ -62,6 +65,8 @@ pub struct Case {
 pub enum Content {
     /// The step kernel of one component.
     Step(Step),
+    /// The step of whole galpixels.
+    Propagate(Propagate),
     /// Arrivals resolved into an empty map.
     Resolve(Resolve),
     /// The edge map.
@@ -90,6 +95,7 @@ impl Content {
     pub const fn kind(&self) -> &'static str {
         match self {
             Self::Step(_) => "step",
+            Self::Propagate(_) => "propagate",
             Self::Resolve(_) => "resolve",
             Self::Edge(_) => "edge",
             Self::Fill(_) => "fill",
@@ -115,6 +121,40 @@ pub struct Step {
     pub steps: Vec<(u32, i32, i32, i32)>,
     /// Position, cells moved, offset, velocity, saturated (1 or 0).
     pub results: Vec<(i32, i32, i32, i32, u32)>,
+}
+
+/// Steps of whole galpixels.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Propagate {
+    /// Widths, fields, places. Its grid has one cell.
+    #[serde(flatten)]
+    pub setting: Setting,
+    /// The rounding's name.
+    pub rounding: String,
+    /// Frame counters and galpixels before the step.
+    pub galpixels: Vec<Stamped>,
+    /// The same after it.
+    pub results: Vec<Moved>,
+}
+
+/// A galpixel before its step.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Stamped {
+    /// The frame counter.
+    pub frame: u32,
+    /// Its words.
+    pub words: Vec<u32>,
+}
+
+/// A galpixel after its step.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct Moved {
+    /// Its words.
+    pub words: Vec<u32>,
+    /// The cells that it moves to the right and down.
+    pub cells: [i32; 2],
+    /// Its fields that were clamped.
+    pub saturated: u32,
 }
 
 /// How whole frames are made.
@@ -144,6 +184,9 @@ pub struct Setting {
     pub record: RecordPlaces,
     /// The size.
     pub grid: GridSize,
+    /// The parameters of the reference design for this record.
+    #[serde(skip)]
+    pub parameters: Vec<String>,
 }
 
 /// Arrivals and the map that they resolve into.
@@ -229,6 +272,26 @@ pub struct FrameAfter {
     pub counts: Counts,
     /// The map.
     pub map: Vec<u32>,
+    /// What came before it.
+    #[serde(skip)]
+    pub stages: Stages,
+}
+
+/// What the stages of a frame gave. It is no part of the case, for it follows from the map before.
+#[derive(Clone, Debug, Default)]
+pub struct Stages {
+    /// The edge map of the map before, whatever the fill mode.
+    pub edges: Vec<u32>,
+    /// The source of each arrival, in raster order.
+    pub sources: Vec<u32>,
+    /// The cell of each; `u32::MAX` where it left the map.
+    pub cells: Vec<u32>,
+    /// The words of one arrival after the other.
+    pub arrivals: Vec<u32>,
+    /// Who won each cell.
+    pub winners: Vec<u32>,
+    /// The map after resolution.
+    pub resolved: Vec<u32>,
 }
 
 /// A map, the frame of fill mode extend after it, and what that becomes by push-pull.
@@ -371,7 +434,34 @@ impl From<Tally> for Counts {
     }
 }
 
+impl Counts {
+    /// Returns them in the order of section 11.
+    pub const fn words(&self) -> [u32; 10] {
+        let &Self { moved, lost, collided, saturated, edges, holes, bullets, debris, galdebris, empty } = self;
+        [moved, lost, collided, saturated, edges, holes, bullets, debris, galdebris, empty]
+    }
+}
+
+impl ComponentWidths {
+    /// Returns the widths with the names that the reference design has for them.
+    pub const fn named(&self) -> [(&'static str, u32); 5] {
+        let &Self { position_frac, velocity_int, velocity_frac, acceleration_int, acceleration_frac } = self;
+        [
+            ("P", position_frac),
+            ("VI", velocity_int),
+            ("VF", velocity_frac),
+            ("AI", acceleration_int),
+            ("AF", acceleration_frac),
+        ]
+    }
+}
+
 impl Setting {
+    /// Returns the words of a record.
+    pub const fn words(&self) -> usize {
+        self.record.words
+    }
+
     /// Describes a record that was planned under a budget, and a grid.
     pub fn of(bits: Bits, record: &Record, grid: GridSize) -> Self {
         let &Layout { colour, depth_bits, velocity, acceleration, depth_motion, luminosity, tag_bits } =
@@ -407,6 +497,7 @@ impl Setting {
             },
             record: RecordPlaces { words: record.words(), fields: fields.into() },
             grid,
+            parameters: rtl::parameters(bits, record),
         }
     }
 }

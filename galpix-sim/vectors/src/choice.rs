@@ -130,7 +130,57 @@ pub fn cases(seed: u64) -> Result<Vec<Case>, RunError> {
     cases.extend(disocclusion::cases(seed, &models)?);
     cases.extend(sub_cell::cases(seed, &models)?);
     cases.extend(source::cases(seed, &models)?);
+    propagate_cases(&mut cases, seed, &models);
+    varied_cases(&mut cases, seed, &models)?;
+    display_cases(&mut cases, seed, &models)?;
     Ok(cases)
+}
+
+/// The step of whole galpixels, which is what a lane in logic computes.
+fn propagate_cases(cases: &mut Vec<Case>, seed: u64, models: &[Model]) {
+    for model in models {
+        for rounding in Rounding::ALL {
+            let name = format!("propagate-{}-{}", model.name, rounding.name());
+            let content = model.propagate(rounding, &mut Random::new(seed, &name));
+            cases.push(Case { name, about: "the step of single galpixels".to_owned(), content });
+        }
+    }
+}
+
+/// Bullets between galpixels no two of whose fields are the same, alone and in whole frames: what the mean of each
+/// field is.
+fn varied_cases(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<(), RunError> {
+    for (index, model) in models.iter().enumerate() {
+        let rounding = Rounding::ALL[index % Rounding::ALL.len()];
+        let edge_threshold = threshold_for_depth(model.depth_bits());
+        let settings = Settings { rounding, fill_mode: FillMode::Extend, reach: 2, edge_threshold };
+        let plan =
+            Plan { picture: Picture::Varied, grid: SHAPES[3], settings, constant_time: false, frame: 1, frames: 3 };
+        frame_case(cases, seed, model, &plan)?;
+        let suffix = format!("{}-{}", model.name, Picture::Varied.name());
+        let plan = Plan { frames: 1, ..plan };
+        let [.., content] = model.stages(&plan, &mut Random::new(seed, &suffix))?;
+        let about = "one frame of a map all of whose fields differ from cell to cell: fill alone".to_owned();
+        cases.push(Case { name: format!("fill-{suffix}"), about, content });
+    }
+    Ok(())
+}
+
+/// A map as wide as a display, for line buffers and counters of columns, and a test pattern on a panel.
+fn display_cases(cases: &mut Vec<Case>, seed: u64, models: &[Model]) -> Result<(), RunError> {
+    let Some(model) = models.iter().find(|model| model.name == "velocity565") else { return Ok(()) };
+    let settings = Settings {
+        rounding: Rounding::Searched,
+        fill_mode: FillMode::Extend,
+        reach: 1,
+        edge_threshold: threshold_for_depth(model.depth_bits()),
+    };
+    let grid = grid(1024, 8, [0; 4]);
+    let plan = Plan { picture: Picture::Uncover, grid, settings, constant_time: false, frame: 0, frames: 2 };
+    frame_case(cases, seed, model, &plan)?;
+    // What `firmware/rtl/src/galpix_panel.sv` shows.
+    let grid = self::grid(60, 46, [2, 2, 1, 1]);
+    frame_case(cases, seed, model, &Plan { picture: Picture::Pattern, grid, frames: 4, ..plan })
 }
 
 fn frame_case(cases: &mut Vec<Case>, seed: u64, model: &Model, plan: &Plan) -> Result<(), RunError> {

@@ -21,6 +21,13 @@ pub fn frame(map: &[u32]) -> String {
     sha256(&bytes)
 }
 
+/// Returns the CRC-32 (that of Ethernet and PNG) of the same bytes, which a test bench in logic computes easily.
+pub fn crc32(map: &[u32]) -> u32 {
+    let mut hasher = crc32fast::Hasher::new();
+    map.iter().for_each(|word| hasher.update(&word.to_le_bytes()));
+    hasher.finalize()
+}
+
 /// Returns one JSON document on a line.
 pub fn json(value: &impl Serialize) -> String {
     // Keys are strings and numbers are integers: JSON can hold all of them.

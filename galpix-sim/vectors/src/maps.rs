@@ -6,6 +6,7 @@ use galpix_core::{Class, Record};
 
 use crate::case::{GridSize, fields};
 use crate::field::{Words, set};
+use crate::rtl::channels;
 
 /// Steele, Lea and Flood's splitmix64: three lines, and the same on every machine for ever.
 #[derive(Clone, Debug)]
@@ -79,10 +80,14 @@ pub enum Picture {
     Surfaces,
     /// The same with offsets at the limits of sub-cell scan-out: a 256th of a cell, three eighths, a half.
     Limits,
+    /// The quarters of a surface drift apart, and every field differs from cell to cell.
+    Varied,
+    /// What a camera sends to test a display: bars, and a box that moves over them.
+    Pattern,
 }
 
 impl Picture {
-    /// All of them but the last five, which are for inpainting, disocclusion and scan-out.
+    /// All of them but the last seven, which are for inpainting, disocclusion, scan-out, the means of bullets, a panel.
     pub const ALL: [Self; 12] = [
         Self::Random,
         Self::Extreme,
@@ -118,6 +123,8 @@ impl Picture {
             Self::Creep => "creep",
             Self::Surfaces => "surfaces",
             Self::Limits => "limits",
+            Self::Varied => "varied",
+            Self::Pattern => "pattern",
         }
     }
 }
@@ -139,7 +146,12 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
             Picture::Extreme => each_field(record, |name, field| extreme_field(name, field, random)),
             Picture::Creep => each_field(record, |name, field| creeping_field(name, field, random)),
             Picture::Surfaces => each_field(record, |name, field| surface_field(name, field, random)),
+            Picture::Pattern => each_field(record, |name, field| pattern_field(name, field, record, [x, y])),
             Picture::Limits => each_field(record, |name, field| limit_field(name, field, random)),
+            Picture::Varied => {
+                let halves = [2 * i32::from(2 * x >= columns), 2 * i32::from(2 * y >= rows)];
+                each_field(record, |name, field| varied_field(name, field, record, halves, random))
+            }
             _ => drawn(picture, record, [x, y], [columns, rows], random),
         };
         for (word, value) in words.iter().take(record.words()).enumerate() {
@@ -150,7 +162,7 @@ pub fn words(picture: Picture, record: &Record, grid: &GridSize, random: &mut Ra
 }
 
 /// Returns the words of a galpixel each of whose fields has the value that is given for it.
-fn each_field(record: &Record, mut value: impl FnMut(&str, Field) -> i32) -> Words {
+pub fn each_field(record: &Record, mut value: impl FnMut(&str, Field) -> i32) -> Words {
     let mut words = [0; MAX_WORDS];
     for (name, field) in fields(record) {
         set(&mut words, field, value(name, field));
@@ -163,7 +175,7 @@ fn velocity_frac(record: &Record, name: &str) -> u32 {
     record.scales[usize::from(name.ends_with('y'))].velocity_frac
 }
 
-fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) -> i32 {
+pub fn random_field(name: &str, field: Field, record: &Record, random: &mut Random) -> i32 {
     let bits = u32::from(field.bits);
     match name {
         "class" => [0, 0, 0, 0, 0, 1, 2, 3][random.below(8) as usize],
@@ -212,7 +224,51 @@ fn limit_field(name: &str, field: Field, random: &mut Random) -> i32 {
     }
 }
 
-fn extreme_field(name: &str, field: Field, random: &mut Random) -> i32 {
+/// `halves` is the velocity in half cells a frame, on which the field has some noise.
+fn varied_field(name: &str, field: Field, record: &Record, halves: [i32; 2], random: &mut Random) -> i32 {
+    let bits = u32::from(field.bits);
+    match name {
+        "class" => 0,
+        // Far less than the threshold of an edge, wherever the field has the bits for it.
+        "depth" => (1 << bits >> 2) + (random.below(1 << bits >> 9) as i32),
+        "velocity_x" | "velocity_y" if bits > 0 => {
+            let component = usize::from(name.ends_with('y'));
+            let top = (1i32 << bits >> 1) - 1;
+            let noise = random.signed(bits.min(3));
+            (((halves[component] << record.scales[component].velocity_frac) >> 1) + noise).clamp(-top - 1, top)
+        }
+        "acceleration_x" | "acceleration_y" => random.signed(bits.min(4)),
+        "velocity_depth" | "acceleration_depth" => random.signed(bits.min(6)),
+        _ => random.signed(bits),
+    }
+}
+
+/// Bars of eight columns behind, their colour by three bits of the column; a box of 16 x 12 cells in front, which moves
+/// by one and a half cells to the right and half a cell down. As `firmware/rtl/src/galpix_pattern.sv` has it.
+fn pattern_field(name: &str, field: Field, record: &Record, [x, y]: [u32; 2]) -> i32 {
+    let bits = u32::from(field.bits);
+    let in_box = (8..24).contains(&x) && (8..20).contains(&y);
+    let all = |bits: u32| (1i64 << bits) as i32 - 1;
+    match name {
+        "depth" if in_box => 1 << bits >> 2,
+        "depth" => all(bits),
+        "velocity_x" if in_box => 3 << record.scales[0].velocity_frac >> 1,
+        "velocity_y" if in_box => 1 << record.scales[1].velocity_frac >> 1,
+        "colour" => {
+            let bars = channels(bits).iter().zip(3..).fold(0, |colour, (&channel, bit)| {
+                colour << channel | if x >> bit & 1 == 1 { all(channel) } else { 0 }
+            });
+            match (in_box, (x ^ y) & 4 == 0) {
+                (true, true) => all(bits),
+                (true, false) => bars ^ all(bits),
+                (false, _) => bars,
+            }
+        }
+        _ => 0,
+    }
+}
+
+pub fn extreme_field(name: &str, field: Field, random: &mut Random) -> i32 {
     let bits = u32::from(field.bits);
     if bits == 0 {
         return 0;

@@ -8,12 +8,16 @@ use galpix_core::{
     Settings, SetupError, Tally,
 };
 
-use crate::arrivals::{Arrival, arrivals, resolve};
+use crate::arrivals::{Arrival, arrivals, moved, resolve};
 use crate::case::{
-    ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Making, Resolve, Setting, Step,
+    ArrivalWords, Content, Edge, Fill, FrameAfter, Frames, GridSize, Inpaint, Making, Moved, Propagate, Resolve,
+    Setting, Stages, Stamped, Step,
 };
 use crate::hash;
-use crate::maps::{Picture, Random, size, words};
+use crate::maps::{Picture, Random, each_field, extreme_field, random_field, size, words};
+
+/// Galpixels of a `propagate` case.
+const GALPIXELS: u32 = 80;
 
 /// Why a case could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -170,14 +174,57 @@ impl Model {
         let mut memory = Memory::new(&front, &grid, true);
         let mut controller = memory.controller(grid, self.format)?;
         controller.set_frame(plan.frame);
-        let frames = (0..plan.frames)
-            .map(|_| {
-                let counts = controller.step(&plan.settings).into();
-                let map = planes(controller.front());
-                FrameAfter { sha256: hash::frame(&map), counts, map }
-            })
-            .collect();
+        let (mut frames, mut before) = (Vec::new(), front.clone());
+        for n in 0..plan.frames {
+            let stages = self.stages_of(plan, &before, plan.frame.wrapping_add(n))?;
+            let counts = controller.step(&plan.settings).into();
+            let map = planes(controller.front());
+            before.clone_from(&map);
+            frames.push(FrameAfter { sha256: hash::frame(&map), counts, map, stages });
+        }
         Ok(Content::Frame(Frames { setting: self.setting(plan.grid), making: plan.making(), front, frames }))
+    }
+
+    /// Returns what the stages of a frame give for the map before it.
+    fn stages_of(&self, plan: &Plan, before: &[u32], frame: u32) -> Result<Stages, RunError> {
+        let mut starts = GridMemory::new(plan.grid);
+        let grid = starts.grid()?;
+        let (mut front, mut back) = (before.to_vec(), vec![0; before.len()]);
+        let front = Galpixmap::over(grid, self.format, &mut front)?;
+        let mut back = Galpixmap::new(grid, self.format, &mut back)?;
+        let mut edges = vec![0; stages::words(&grid)];
+        stages::mark(&front, plan.making().threshold, &mut edges);
+        let arrived = arrivals(&front, plan.settings.rounding, frame);
+        let mut winners = vec![0; grid.cells() as usize];
+        resolve(arrived.iter().copied(), &mut back, &mut winners);
+        Ok(Stages {
+            edges,
+            sources: arrived.iter().map(|arrival| arrival.source).collect(),
+            cells: arrived.iter().map(|arrival| arrival.cell.unwrap_or(u32::MAX)).collect(),
+            arrivals: arrived.iter().flat_map(|arrival| arrival.words[..self.record().words()].to_vec()).collect(),
+            winners,
+            resolved: planes(&back),
+        })
+    }
+
+    /// Makes the step of single galpixels: half of them with random fields, half with fields at an end of their range.
+    pub fn propagate(&self, rounding: Rounding, random: &mut Random) -> Content {
+        let record = self.record();
+        let stored = |words: &[u32]| words[..record.words()].to_vec();
+        let (mut galpixels, mut results) = (Vec::new(), Vec::new());
+        for turn in 0..GALPIXELS {
+            let frame = random.next() as u32;
+            let before = if turn % 2 == 0 {
+                each_field(record, |name, field| random_field(name, field, record, random))
+            } else {
+                each_field(record, |name, field| extreme_field(name, field, random))
+            };
+            let (after, cells, saturated) = moved(record, rounding, frame, before);
+            galpixels.push(Stamped { frame, words: stored(&before) });
+            results.push(Moved { words: stored(&after), cells, saturated });
+        }
+        let setting = self.setting(GridSize { width: 1, height: 1, left: 0, right: 0, top: 0, bottom: 0 });
+        Content::Propagate(Propagate { setting, rounding: rounding.name().to_owned(), galpixels, results })
     }
 
     /// Makes one frame, and paints what it uncovered.

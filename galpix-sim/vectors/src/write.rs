@@ -3,16 +3,45 @@
 use std::fmt::Write as _;
 
 use crate::case::{Case, Content, Entry, FileHash, Manifest, schema};
-use crate::hash::{hashes, json, sha256};
+use crate::hash::{crc32, hashes, json, sha256};
+use crate::logic;
 
 /// The format's name and version: another number where an old reader would go wrong.
 pub const FORMAT: &str = "galpix-vectors-1";
 
-/// Gives all cases, the schema and last the manifest to `save`, each with its path in the folder of vectors and its
-/// text.
+/// What of the vectors is written.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Cases of these kinds; of all if there are none here.
+    pub kinds: Vec<String>,
+    /// Cases of these layouts and budgets, by the second part of a case's name; of all if there are none here.
+    pub layouts: Vec<String>,
+    /// What the stages of each frame of a frame case gave.
+    pub stages: bool,
+    /// Maps once more with a record a line.
+    pub records: bool,
+}
+
+impl Choice {
+    /// Returns whether a case is written.
+    #[must_use]
+    pub fn has(&self, case: &Case) -> bool {
+        let listed = |list: &[String], name: &str| list.is_empty() || list.iter().any(|listed| listed == name);
+        listed(&self.kinds, case.content.kind())
+            && listed(&self.layouts, case.name.split('-').nth(1).unwrap_or_default())
+    }
+}
+
+/// Gives the cases of a choice, the schema, the hashes of all cases and last the manifest to `save`, each with its path
+/// in the folder of vectors and its text.
 ///
 /// *Errors:* the first one of `save`.
-pub fn write<E>(seed: u64, cases: &[Case], mut save: impl FnMut(&str, &str) -> Result<(), E>) -> Result<Manifest, E> {
+pub fn write<E>(
+    seed: u64,
+    cases: &[Case],
+    choice: &Choice,
+    mut save: impl FnMut(&str, &str) -> Result<(), E>,
+) -> Result<Manifest, E> {
     let mut put = |path: &str, text: &str| {
         save(path, text)?;
         Ok(FileHash { path: path.to_owned(), sha256: sha256(text.as_bytes()) })
@@ -20,27 +49,43 @@ pub fn write<E>(seed: u64, cases: &[Case], mut save: impl FnMut(&str, &str) -> R
     put("schema.json", &json(&schema()))?;
     put("hashes.txt", &hashes(cases))?;
     let mut entries = Vec::with_capacity(cases.len());
-    for case in cases {
-        let mut files = vec![put(&format!("{}/case.json", case.name), &json(case))?];
-        for (name, words) in arrays(&case.content) {
-            files.push(put(&format!("{}/{name}.hex", case.name), &readmemh(&case.name, &name, &words))?);
+    for case in cases.iter().filter(|case| choice.has(case)) {
+        let name = &case.name;
+        let mut files = vec![put(&format!("{name}/case.json"), &json(case))?];
+        for (array, words) in arrays(&case.content) {
+            files.push(put(&format!("{name}/{array}.hex"), &readmemh(name, &array, &words, 1))?);
+        }
+        for (array, words, a_line) in logic::arrays(&case.content, choice) {
+            files.push(put(&format!("{name}/{array}.hex"), &readmemh(name, &array, &words, a_line))?);
+        }
+        if let Some(text) = logic::parameters(case) {
+            files.push(put(&format!("{name}/params.svh"), &text)?);
         }
         let frames = match &case.content {
-            Content::Frame(frames) => frames.frames.iter().map(|frame| frame.sha256.clone()).collect(),
-            _ => Vec::new(),
+            Content::Frame(frames) => frames.frames.as_slice(),
+            _ => &[],
         };
-        entries.push(Entry { name: case.name.clone(), kind: case.content.kind().to_owned(), files, frames });
+        entries.push(Entry {
+            name: name.clone(),
+            kind: case.content.kind().to_owned(),
+            files,
+            frames: frames.iter().map(|frame| frame.sha256.clone()).collect(),
+            crc32: frames.iter().map(|frame| crc32(&frame.map)).collect(),
+        });
     }
     let manifest = Manifest { format: FORMAT.to_owned(), seed, cases: entries };
     put("manifest.json", &json(&manifest))?;
     Ok(manifest)
 }
 
-/// Returns words as `$readmemh` reads them.
-fn readmemh(case: &str, name: &str, words: &[u32]) -> String {
+/// Returns words as `$readmemh` reads them, so many on a line as make a number.
+fn readmemh(case: &str, name: &str, words: &[u32], a_line: usize) -> String {
     let mut text = format!("// {case}: {name}, {} words\n", words.len());
-    for word in words {
-        let _ = writeln!(text, "{word:08x}");
+    for number in words.chunks(a_line) {
+        for word in number {
+            let _ = write!(text, "{word:08x}");
+        }
+        text.push('\n');
     }
     text
 }
@@ -63,6 +108,14 @@ fn arrays(content: &Content) -> Vec<(String, Vec<u32>)> {
                 ("saturated", results.iter().map(|&(.., saturated)| saturated).collect()),
             ])
         }
+        Content::Propagate(propagate) => named(vec![
+            ("frame", propagate.galpixels.iter().map(|galpixel| galpixel.frame).collect()),
+            ("before", propagate.galpixels.iter().flat_map(|galpixel| galpixel.words.iter().copied()).collect()),
+            ("after", propagate.results.iter().flat_map(|moved| moved.words.iter().copied()).collect()),
+            ("x_cells", propagate.results.iter().map(|moved| moved.cells[0] as u32).collect()),
+            ("y_cells", propagate.results.iter().map(|moved| moved.cells[1] as u32).collect()),
+            ("saturated", propagate.results.iter().map(|moved| moved.saturated).collect()),
+        ]),
         Content::Resolve(resolve) => {
             let arrivals = &resolve.arrivals;
             named(vec![
