@@ -14,7 +14,8 @@ export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format width clippy docs tests no-std codegen constant-time model proofs rtl benches msrv package fuzz firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs rtl python benches msrv package fuzz
+    firmware)
 QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
@@ -70,6 +71,15 @@ install_missing() {
 absent() {
     local target
     for target; do installed "$target" || printf '%s ' "$target"; done
+}
+
+# Runs a script that ends with 3 if it, or a part of it, cannot run here: then the step is skipped, as `why` says.
+by_script() {
+    local why="$1" status=0
+    shift
+    "$@" || status=$?
+    [ "$status" != 3 ] || { skip "$why"; return; }
+    return "$status"
 }
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -166,18 +176,17 @@ step_model() {
 
 # The quick form of tests/proofs/run.sh: a solver on the paper's example, and a planted fault for each stage.
 step_proofs() {
-    local status=0
-    tests/proofs/run.sh --quick || status=$?
-    [ "$status" != 3 ] || { skip "python3, or the solver from its package registry, cannot be had here"; return; }
-    return "$status"
+    by_script "python3, or the solver from its package registry, cannot be had here" tests/proofs/run.sh --quick
 }
 
 # The reference design in logic: lint, all vectors of its kinds, proofs, planted faults, synthesis.
 step_rtl() {
-    local status=0
-    firmware/rtl/test.sh || status=$?
-    [ "$status" != 3 ] || { skip "some steps of firmware/rtl/test.sh could not run, see above"; return; }
-    return "$status"
+    by_script "some steps of firmware/rtl/test.sh could not run, see above" firmware/rtl/test.sh
+}
+
+# The Python package: wheel, sdist, ten lines in an empty environment, its tests on the wheel.
+step_python() {
+    by_script "some parts of python/test.sh could not run, see above" python/test.sh
 }
 
 step_benches() {
@@ -219,18 +228,12 @@ step_package() {
 
 # Two minutes of cases made by a coverage-guided fuzzer, for each importer.
 step_fuzz() {
-    local status=0
-    tests/fuzz/run.sh 120 || status=$?
-    [ "$status" != 3 ] || { skip "the fuzzer cannot be built here, see above"; return; }
-    return "$status"
+    by_script "the fuzzer cannot be built here, see above" tests/fuzz/run.sh 120
 }
 
 # The firmware in the emulator: build for each board, run, compare with the simulator.
 step_firmware() {
-    local status=0
-    firmware/test.sh || status=$?
-    [ "$status" != 3 ] || { skip "some steps of firmware/test.sh could not run, see above"; return; }
-    return "$status"
+    by_script "some steps of firmware/test.sh could not run, see above" firmware/test.sh
 }
 
 # --- running them ----------------------------------------------------------------------------------------------------
