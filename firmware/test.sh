@@ -7,6 +7,7 @@
 #   firmware/test.sh proof cost    only these
 #   firmware/test.sh --list        their names
 #   firmware/test.sh --write-cost  counts instructions and writes them into cost.csv
+#   firmware/test.sh --write-text  measures code and writes its bytes into text.csv
 #   OFFLINE=1 firmware/test.sh     downloads no target and no emulator
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -21,10 +22,13 @@ OLED_TARGET=thumbv7m-none-eabi
 PICO_TARGET=thumbv6m-none-eabi
 LCD_TARGET=armv7a-none-eabi
 TARGETS=("${PROOF_TARGETS[@]}" "$LCD_TARGET")
-STEPS=(format clippy build proof machine-code kernels cost screens faults pace)
+# One of each kind of instructions.
+TEXT_TARGETS=(thumbv6m-none-eabi thumbv7em-none-eabi riscv32imac-unknown-none-elf)
+STEPS=(format clippy build proof machine-code text kernels cost screens faults pace)
 
 summary=() passed=0 failed=0 skipped=0
 write_cost=()
+write_text=()
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -140,7 +144,7 @@ step_build() {
     local missing
     missing="$(absent "${TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     on build galpix-cost --release "${COST_TARGETS[@]}"
     boards
 }
@@ -182,9 +186,9 @@ step_proof() {
     local missing target answer
     missing="$(absent "${PROOF_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     for target in "${PROOF_TARGETS[@]}"; do
-        if answer="$(on build galpix-proof "--release --features bad" "$target" 2>&1)"; then
+        if answer="$(on build galpix-proof "--release --bin galpix-proof --features bad" "$target" 2>&1)"; then
             echo "$target: a program that can panic was linked" >&2
             return 1
         fi
@@ -200,12 +204,22 @@ step_machine-code() {
     local missing target status=0
     missing="$(absent "${PROOF_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     for target in "${PROOF_TARGETS[@]}"; do
         echo "$target:"
         cargo run --locked --quiet -p galpix-check -- machine-code "target/$target/release/galpix-proof" || status=$?
     done
     return "$status"
+}
+
+# Bytes of a frame's code by layout, within 5 % of text.csv.
+step_text() {
+    local missing target files=()
+    missing="$(absent "${TEXT_TARGETS[@]}")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    on build galpix-proof "--release --bin galpix-text" "${TEXT_TARGETS[@]}"
+    for target in "${TEXT_TARGETS[@]}"; do files+=("target/$target/release/galpix-text"); done
+    cargo run --locked --quiet -p galpix-check -- text ${write_text[@]+"${write_text[@]}"} "${files[@]}"
 }
 
 step_cost() {
@@ -303,6 +317,7 @@ main() {
     case "${1:-}" in
         --list) printf '%s\n' "${STEPS[@]}"; return ;;
         --write-cost) write_cost=(--write) chosen=(cost) ;;
+        --write-text) write_text=(--write) chosen=(text) ;;
     esac
     [ "${#chosen[@]}" -gt 0 ] || chosen=("${STEPS[@]}")
     for name in "${chosen[@]}"; do

@@ -79,7 +79,7 @@ impl Board {
     /// Frames a second that its program makes if it is in time.
     pub const fn rate(self) -> f64 {
         match self {
-            Self::Rp2040 => 30.0,
+            Self::Rp2040 => 15.0,
             Self::Lm3s6965evb | Self::VexpressA9 => 60.0,
         }
     }

@@ -37,8 +37,8 @@ type Stored = Static<Display>;
 const CRYSTAL: u32 = 12_000_000;
 /// The processor's clock, in Hz.
 const CLOCK: u32 = 125_000_000;
-/// Frames a second: a picture is on the bus for 20 ms of the 33.
-const RATE: u32 = 30;
+/// Frames a second: the longest takes 54 ms, 20 of them on the bus.
+const RATE: u32 = 15;
 /// Clocks from one frame to the next.
 const TICKS_PER_FRAME: u32 = CLOCK / RATE;
 /// The clock of the bus to the panel, in Hz: half of the processor's, the quickest that there is.
