@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs a board's program in QEMU: the cargo runner of the boards, `run.sh BOARD ELF`.
+# Runs a board's program in its emulator: the cargo runner of the boards, `run.sh BOARD ELF`.
 #
 #   cd firmware/boards/lm3s6965evb && cargo run --release
 #
@@ -11,6 +11,15 @@ set -euo pipefail
 [ "$#" -ge 2 ] || { echo "run.sh: a board and its program: run.sh BOARD ELF" >&2; exit 2; }
 board="$1" elf="$2"
 port="${PORT:-5331}"
+
+# The Pico has another emulator, without a window and without a log.
+if [ "$board" = rp2040 ]; then
+    folder="$(cd "$(dirname "$0")" && pwd)/emulators/rp2040"
+    command -v node >/dev/null || { echo "run.sh: node is missing: sudo apt-get install nodejs npm" >&2; exit 1; }
+    [ -d "$folder/node_modules" ] || npm ci --prefix "$folder" --no-audit --no-fund >&2
+    echo "run.sh: the line is tcp:127.0.0.1:$port; Ctrl-C ends" >&2
+    exec node "$folder/run.mjs" "$elf" --listen "$port"
+fi
 
 command -v qemu-system-arm >/dev/null || {
     echo "run.sh: qemu-system-arm is missing: install it, for example with: sudo apt-get install qemu-system-arm" >&2

@@ -7,6 +7,7 @@
 #   firmware/test.sh proof cost    only these
 #   firmware/test.sh --list        their names
 #   firmware/test.sh --write-cost  counts instructions and writes them into cost.csv
+#   firmware/test.sh --write-text  measures code and writes its bytes into text.csv
 #   OFFLINE=1 firmware/test.sh     downloads no target and no emulator
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -18,12 +19,16 @@ export CARGO_TARGET_DIR="$PWD/target"
 COST_TARGETS=(thumbv6m-none-eabi thumbv7m-none-eabi thumbv7em-none-eabi)
 PROOF_TARGETS=("${COST_TARGETS[@]}" riscv32imac-unknown-none-elf)
 OLED_TARGET=thumbv7m-none-eabi
+PICO_TARGET=thumbv6m-none-eabi
 LCD_TARGET=armv7a-none-eabi
 TARGETS=("${PROOF_TARGETS[@]}" "$LCD_TARGET")
-STEPS=(format clippy build proof machine-code kernels cost screens faults pace)
+# One of each kind of instructions.
+TEXT_TARGETS=(thumbv6m-none-eabi thumbv7em-none-eabi riscv32imac-unknown-none-elf)
+STEPS=(format clippy build proof machine-code text kernels cost screens faults pace)
 
 summary=() passed=0 failed=0 skipped=0
 write_cost=()
+write_text=()
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -129,6 +134,8 @@ step_clippy() {
     on clippy lm3s6965evb "-- -D warnings" "$OLED_TARGET"
     on clippy lm3s6965evb "--no-default-features --features probe -- -D warnings" "$OLED_TARGET"
     on clippy vexpress-a9 "-- -D warnings" "$LCD_TARGET"
+    on clippy rp2040 "-- -D warnings" "$PICO_TARGET"
+    on clippy rp2040 "--features probe -- -D warnings" "$PICO_TARGET"
     on clippy lm3s6965evb "--features push-pull -- -D warnings" "$OLED_TARGET"
     on clippy vexpress-a9 "--features push-pull -- -D warnings" "$LCD_TARGET"
 }
@@ -137,7 +144,7 @@ step_build() {
     local missing
     missing="$(absent "${TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     on build galpix-cost --release "${COST_TARGETS[@]}"
     boards
 }
@@ -155,6 +162,8 @@ boards() {
         cp "target/$target/release/$board" "target/$target/release/$board-push-pull"
         on build "$board" --release "$target"
     done
+    on build rp2040 --release "$PICO_TARGET"
+    programs+=("target/$PICO_TARGET/release/rp2040")
     cargo run --locked --quiet -p galpix-check -- size "${programs[@]}"
 }
 
@@ -166,7 +175,7 @@ device() {
 # What a step needs that runs the boards' programs. Skips it if that cannot be had.
 have_boards() {
     local missing
-    missing="$(absent "$OLED_TARGET" "$LCD_TARGET")"
+    missing="$(absent "$OLED_TARGET" "$PICO_TARGET" "$LCD_TARGET")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return 1; }
     have_qemu || { skip "not installed: qemu-system-arm, to be had with: apt-get install qemu-system-arm"; return 1; }
     boards >/dev/null
@@ -177,9 +186,9 @@ step_proof() {
     local missing target answer
     missing="$(absent "${PROOF_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     for target in "${PROOF_TARGETS[@]}"; do
-        if answer="$(on build galpix-proof "--release --features bad" "$target" 2>&1)"; then
+        if answer="$(on build galpix-proof "--release --bin galpix-proof --features bad" "$target" 2>&1)"; then
             echo "$target: a program that can panic was linked" >&2
             return 1
         fi
@@ -195,12 +204,22 @@ step_machine-code() {
     local missing target status=0
     missing="$(absent "${PROOF_TARGETS[@]}")"
     [ -z "$missing" ] || { skip "not installed: $missing"; return; }
-    on build galpix-proof --release "${PROOF_TARGETS[@]}"
+    on build galpix-proof "--release --bin galpix-proof" "${PROOF_TARGETS[@]}"
     for target in "${PROOF_TARGETS[@]}"; do
         echo "$target:"
         cargo run --locked --quiet -p galpix-check -- machine-code "target/$target/release/galpix-proof" || status=$?
     done
     return "$status"
+}
+
+# Bytes of a frame's code by layout, within 5 % of text.csv.
+step_text() {
+    local missing target files=()
+    missing="$(absent "${TEXT_TARGETS[@]}")"
+    [ -z "$missing" ] || { skip "not installed: $missing"; return; }
+    on build galpix-proof "--release --bin galpix-text" "${TEXT_TARGETS[@]}"
+    for target in "${TEXT_TARGETS[@]}"; do files+=("target/$target/release/galpix-text"); done
+    cargo run --locked --quiet -p galpix-check -- text ${write_text[@]+"${write_text[@]}"} "${files[@]}"
 }
 
 step_cost() {
@@ -237,14 +256,36 @@ step_kernels() {
     cargo test --locked --quiet --release -p galpix-kernels
 }
 
-# Every pixel of both emulated screens against the simulator, and both against the kept hashes.
-step_screens() { have_boards || return 0; device screens; }
+# The emulator of the Pico, if need be installed: a package of Node, by its lock file.
+have_pico() {
+    local folder=emulators/rp2040 wanted
+    command -v node >/dev/null || return 1
+    wanted="$(sed -n 's/.*"rp2040js": "\(.*\)".*/\1/p' "$folder/package.json")"
+    grep -qs "\"version\": \"$wanted\"" "$folder/node_modules/rp2040js/package.json" && return
+    [ -z "${OFFLINE:-}" ] && command -v npm >/dev/null || return 1
+    say "the emulator of the Pico is missing: npm ci"
+    limited 300 npm ci --prefix "$folder" --no-audit --no-fund || return 1
+}
+
+# Runs a command of the tool for each board that has its emulator here. Skips the Pico if it has none.
+devices() {
+    have_boards || return 0
+    if have_pico; then
+        device "$@"
+    else
+        device "$@" --board lm3s6965evb --board vexpress-a9
+        skip "the others passed; rp2040 needs node and npm, to be had with: apt-get install nodejs npm"
+    fi
+}
+
+# Every pixel of the emulated screens against the simulator, and all against the kept hashes.
+step_screens() { devices screens; }
 
 # Random and corrupted frames over the line.
-step_faults() { have_boards || return 0; device faults; }
+step_faults() { devices faults; }
 
-# Frames a second, missed vsyncs, busy time and stack at stated instructions a second.
-step_pace() { have_boards || return 0; device pace --check; }
+# Frames a second, missed vsyncs, busy time and stack at stated speeds.
+step_pace() { devices pace --check; }
 
 # --- running them ----------------------------------------------------------------------------------------------------
 
@@ -276,6 +317,7 @@ main() {
     case "${1:-}" in
         --list) printf '%s\n' "${STEPS[@]}"; return ;;
         --write-cost) write_cost=(--write) chosen=(cost) ;;
+        --write-text) write_text=(--write) chosen=(text) ;;
     esac
     [ "${#chosen[@]}" -gt 0 ] || chosen=("${STEPS[@]}")
     for name in "${chosen[@]}"; do

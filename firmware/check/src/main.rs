@@ -4,6 +4,7 @@
 //! galpix-check cost [--write] [RUN.csv...]    counted instructions beside firmware/cost.csv
 //! galpix-check machine-code ELF [NAME...]     what the functions of these names reach
 //! galpix-check size ELF...                    what programs take of flash and RAM
+//! galpix-check text [--write] ELF...          bytes of a frame's code by layout, beside firmware/text.csv
 //! ```
 //!
 //! Without files `cost` reads standard input; without names `machine-code` takes those that begin with `proof_`.
@@ -13,6 +14,7 @@
 mod cost;
 mod machine_code;
 mod size;
+mod text;
 
 use std::process::ExitCode;
 
@@ -25,13 +27,15 @@ struct Findings {
     faults: Vec<String>,
 }
 
-const USAGE: &str = "usage: galpix-check cost [--write] [RUN.csv...]\n       galpix-check machine-code ELF [NAME...]\n       galpix-check size ELF...";
+const USAGE: &str = "usage: galpix-check cost [--write] [RUN.csv...]\n       galpix-check machine-code ELF [NAME...]\n       galpix-check size ELF...\n       galpix-check text [--write] ELF...";
 
 fn run(arguments: &[&str]) -> Result<Findings, String> {
     match arguments {
         ["cost", "--write", files @ ..] => cost::run(files, true),
         ["cost", files @ ..] => cost::run(files, false),
         ["size", files @ ..] => size::run(files),
+        ["text", "--write", files @ ..] => text::run(files, true),
+        ["text", files @ ..] => text::run(files, false),
         ["machine-code", file, names @ ..] => machine_code::run(file, names),
         _ => Err(USAGE.to_owned()),
     }

@@ -1,7 +1,5 @@
 //! The seam: what a board gives. Everything else is shared.
 
-use core::convert::Infallible;
-
 use embedded_graphics::draw_target::DrawTarget;
 use galpix_core::scan_out::PanelColour;
 
@@ -10,8 +8,8 @@ pub trait Board {
     /// A pixel of its panel.
     type Pixel: PanelColour;
     /// What a band of the picture is drawn on. Its coordinates are those of the whole panel; what lies outside of the
-    /// band is not drawn.
-    type Band: DrawTarget<Color = Self::Pixel, Error = Infallible>;
+    /// band is not drawn. A pixel that it refuses is left out of the picture.
+    type Band: DrawTarget<Color = Self::Pixel>;
 
     /// Ticks of [`Self::ticks`] between two vsyncs.
     const TICKS_PER_FRAME: u32;
@@ -31,9 +29,11 @@ pub trait Board {
     /// panel shows it.
     fn show(&mut self, draw: impl FnMut(&mut Self::Band, u32, u32));
 
-    /// The next byte from the host, if one has come.
-    fn receive(&mut self) -> Option<u8>;
+    /// The next byte from the host, if one has come. None ever comes to a board without a line.
+    fn receive(&mut self) -> Option<u8> {
+        None
+    }
 
-    /// Sends a byte to the host, once there is room.
-    fn send(&mut self, byte: u8);
+    /// Sends a byte to the host, once there is room. A board without a line drops it.
+    fn send(&mut self, _byte: u8) {}
 }

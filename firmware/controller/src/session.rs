@@ -126,7 +126,7 @@ where
         let ink = [[255; 3], [0; 3]].map(|rgb| B::Pixel::of_word(B::Pixel::FORMAT.from_rgb888(rgb)));
         self.board.show(|band, top, rows| {
             for y in top..top + rows {
-                // A band is infallible.
+                // What the band refuses is left out: the picture goes on.
                 let _ = Image::new(&View::band(map, y, 1), Point::new(0, y as i32)).draw(band);
             }
             if let Some(overlay) = &overlay {

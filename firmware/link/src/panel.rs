@@ -58,7 +58,7 @@ pub struct Description {
 }
 
 /// Every display, the smallest first.
-pub const ALL: [Description; 2] = [Oled::DESCRIPTION, Lcd::DESCRIPTION];
+pub const ALL: [Description; 3] = [Oled::DESCRIPTION, Tft::DESCRIPTION, Lcd::DESCRIPTION];
 
 /// The display with this fingerprint.
 #[must_use]
@@ -218,6 +218,30 @@ impl Panel for Oled {
         Inpainting { quads: false, ..Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero) };
 }
 
+/// A colour display of 320 x 240 pixels, each galpixel on 2 x 2 of them.
+#[derive(Clone, Copy, Debug)]
+pub enum Tft {}
+
+impl Profile for Tft {
+    /// x and y with velocity only, RGB565, 16-bit z that does not move, and two bits that tell an update from those
+    /// before.
+    const LAYOUT: Layout = Layout { tag_bits: 2, ..Layout::VELOCITY565 };
+    /// Recognition in 8 frames, an update every 16: 64 bits, two words to their last bit.
+    const BITS: Bits = Bits::must(Bits::derive_without_acceleration(Demand { extent: 160, recog: 8, prop: 16 }));
+}
+
+impl Panel for Tft {
+    const NAME: &'static str = "tft";
+    const WIDTH: u16 = 160;
+    const HEIGHT: u16 = 120;
+    /// No: that would be half of the work of a frame.
+    const TELLS_SURFACES: bool = false;
+    /// The colour only, as on the OLED: one map.
+    const MOTION: Motion = Motion::Kept;
+    const INPAINTING: Inpainting<'static> =
+        Inpainting { quads: false, ..Inpainting::for_depth(Self::RECORD.depth().bits as u32, Gamma::Zero) };
+}
+
 /// A colour display of 320 x 240 pixels.
 #[derive(Clone, Copy, Debug)]
 pub enum Lcd {}
@@ -240,4 +264,5 @@ impl Panel for Lcd {
 }
 
 const _: () = assert!(Oled::RECORD.bits() == 32 && Oled::RECORD.bytes() == 4);
+const _: () = assert!(Tft::RECORD.bits() == 64 && Tft::RECORD.bytes() == 8);
 const _: () = assert!(Lcd::RECORD.bits() == 96 && Lcd::RECORD.bytes() == 12);

@@ -1,12 +1,15 @@
 //! The registers of the boards, and what else needs `unsafe`: all of it in this crate, and nothing else in it.
 //!
-//! A [`Register`] can be made here only. Each constant of [`lm3s6965`] and [`vexpress`] is a 32-bit register that may
+//! A [`Register`] can be made here only. Each constant of a board's module is a 32-bit register that may
 //! be read and written at any time without breaking Rust's rules: none makes a device write to memory.
 
 #![no_std]
 #![deny(missing_docs)]
 
+pub mod cortex_m;
 pub mod lm3s6965;
+#[cfg(feature = "rp2040")]
+pub mod rp2040;
 pub mod vexpress;
 
 /// A 32-bit register.

@@ -1,7 +1,7 @@
 //! `galpix send`.
 
 use clap::{Args, ValueEnum};
-use galpix_link::panel::{Description, Lcd, Oled, Panel};
+use galpix_link::panel::{Description, Lcd, Oled, Panel, Tft};
 
 use super::{CliError, note, print, print_json, printable};
 use crate::cli::progress;
@@ -14,6 +14,8 @@ use crate::source::capture::ImportOptions;
 enum PanelChoice {
     /// 128 x 64, 4-bit gray, velocity
     Oled,
+    /// 160 x 120, RGB565, velocity
+    Tft,
     /// 320 x 240, RGB565, velocity and acceleration
     Lcd,
 }
@@ -22,6 +24,7 @@ impl From<PanelChoice> for Description {
     fn from(choice: PanelChoice) -> Self {
         match choice {
             PanelChoice::Oled => Oled::DESCRIPTION,
+            PanelChoice::Tft => Tft::DESCRIPTION,
             PanelChoice::Lcd => Lcd::DESCRIPTION,
         }
     }

@@ -1,7 +1,7 @@
 //! Galpixels as a panel's maps store them.
 
 use galpix_core::{Galpixel, Galpixmap, Grid, Margin, SetupError, Static};
-use galpix_link::panel::{Description, Lcd, Oled, Panel};
+use galpix_link::panel::{Description, Lcd, Oled, Panel, Tft};
 
 /// A whole map of stored galpixels, row by row; all words of a galpixel follow each other, each with its lowest byte
 /// first.
@@ -26,6 +26,8 @@ impl Packed {
 pub fn pack(panel: &Description, galpixels: &[Galpixel]) -> Result<Packed, SetupError> {
     if panel.fingerprint == Oled::DESCRIPTION.fingerprint {
         pack_as::<Oled>(galpixels)
+    } else if panel.fingerprint == Tft::DESCRIPTION.fingerprint {
+        pack_as::<Tft>(galpixels)
     } else {
         pack_as::<Lcd>(galpixels)
     }

@@ -1,4 +1,4 @@
-//! A board's program in QEMU: its screen, its serial line, its clock.
+//! A board's program in an emulator: its screen, its serial line, its clock.
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::{UnixListener, UnixStream};
@@ -53,27 +53,18 @@ impl Emulator {
         let (monitor, serial) = (folder.path().join("qmp"), folder.path().join("serial"));
         let listener = UnixListener::bind(&monitor)?;
         let serial_listener = UnixListener::bind(&serial)?;
-        let mut command = Command::new("qemu-system-arm");
-        command
-            .args(["-M", board.name(), "-display", "none", "-monitor", "none"])
-            .args(["-semihosting-config", "enable=on,target=native"])
-            .args(["-audiodev", "none,id=snd"])
-            .arg("-qmp")
-            .arg(format!("unix:{}", monitor.display()))
-            .arg("-chardev")
-            .arg(format!("socket,id=line,path={}", serial.display()))
-            .args(["-serial", "chardev:line"])
-            .arg("-kernel")
-            .arg(&program)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null());
+        let mut command = match board {
+            Board::Rp2040 => pico(firmware, &program, &monitor, &serial),
+            Board::Lm3s6965evb | Board::VexpressA9 => qemu(board, &program, &monitor, &serial),
+        };
         if let Pace::Shift(shift) = pace {
             command.arg("-icount").arg(format!("shift={shift},sleep=off"));
         }
-        let child = command.spawn().map_err(|error| {
-            Failure::new(format!("qemu-system-arm cannot be started ({error}): install qemu-system-arm"))
-        })?;
+        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        let name = command.get_program().to_string_lossy().into_owned();
+        let child = command
+            .spawn()
+            .map_err(|error| Failure::new(format!("{name} cannot be started ({error}): install {name}")))?;
         let mut child = Process(child);
         let serial = accept(&serial_listener, &mut child, board)?;
         let commands = accept(&listener, &mut child, board)?;
@@ -123,6 +114,31 @@ impl Emulator {
     pub fn runs(&mut self) -> bool {
         matches!(self.child.0.try_wait(), Ok(None))
     }
+}
+
+/// Returns the command that runs a program in QEMU.
+fn qemu(board: Board, program: &Path, monitor: &Path, serial: &Path) -> Command {
+    let mut command = Command::new("qemu-system-arm");
+    command
+        .args(["-M", board.name(), "-display", "none", "-monitor", "none"])
+        .args(["-semihosting-config", "enable=on,target=native"])
+        .args(["-audiodev", "none,id=snd"])
+        .arg("-qmp")
+        .arg(format!("unix:{}", monitor.display()))
+        .arg("-chardev")
+        .arg(format!("socket,id=line,path={}", serial.display()))
+        .args(["-serial", "chardev:line"])
+        .arg("-kernel")
+        .arg(program);
+    command
+}
+
+/// Returns the command that runs a program on an emulated Pico, which has a monitor like QEMU's.
+fn pico(firmware: &Path, program: &Path, monitor: &Path, serial: &Path) -> Command {
+    let mut command = Command::new("node");
+    command.arg(firmware.join("emulators/rp2040/run.mjs")).arg(program);
+    command.arg("--serial").arg(serial).arg("--monitor").arg(monitor);
+    command
 }
 
 /// A process that ends with its owner.

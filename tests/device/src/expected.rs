@@ -13,7 +13,7 @@ use galpix_controller::scene;
 use galpix_core::inpaint::PushPull;
 use galpix_core::scan_out::{PanelColour, row};
 use galpix_core::{Controller, Delay, Dynamic, Galpixmap, Grid, Margin, Scratch, Tally, graft, stages};
-use galpix_link::panel::{Lcd, Oled, Panel};
+use galpix_link::panel::{Lcd, Oled, Panel, Tft};
 use galpix_link::picture::PictureHash;
 use galpix_sim::picture::Picture;
 
@@ -49,6 +49,7 @@ pub fn frames(
 ) -> Result<Vec<Expected>, Failure> {
     match board {
         Board::Lm3s6965evb => of::<Oled, Gray4>((board, filling), shows, first, frames, overlay),
+        Board::Rp2040 => of::<Tft, Rgb565>((board, filling), shows, first, frames, overlay),
         Board::VexpressA9 => of::<Lcd, Rgb565>((board, filling), shows, first, frames, overlay),
     }
 }

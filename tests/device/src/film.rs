@@ -18,7 +18,7 @@ const MOST_BYTES: usize = 1_500_000;
 /// Captures `frames` frames of each scene on both panels and makes one film of them.
 pub fn run(firmware: &Path, frames: u32) -> Result<(), Failure> {
     let mut shots: Vec<Vec<Picture>> = Vec::new();
-    for board in Board::ALL {
+    for board in [Board::Lm3s6965evb, Board::VexpressA9] {
         let mut emulator = Emulator::start(board, Filling::FillMode, firmware, Pace::Free)?;
         lockstep(&mut emulator)?;
         let mut of_board = Vec::new();

@@ -39,8 +39,9 @@ impl Line {
     /// Waits until the board answers. What is sent before its line is set up is lost: so the request is repeated.
     pub fn greet(&mut self) -> Result<(), Failure> {
         self.stream.set_read_timeout(Some(Duration::from_millis(500)))?;
-        let begin = Instant::now();
+        let (begin, mut requests) = (Instant::now(), 0);
         loop {
+            requests += 1;
             // The 0 ends what may have been begun.
             self.send_bytes(&[0])?;
             match self.status() {
@@ -49,13 +50,9 @@ impl Line {
                 Err(_) => {}
             }
         }
-        self.stream.set_read_timeout(Some(PATIENCE))?;
-        // The answers to repeated requests come before the answer to this one.
-        self.status()?;
-        while !self.waiting.is_empty() {
-            self.status()?;
-        }
-        Ok(())
+        // A board that starts slowly has more requests to answer: until it is silent.
+        while requests > 1 && self.listen().is_ok() {}
+        Ok(self.stream.set_read_timeout(Some(PATIENCE))?)
     }
 
     /// Sends a frame.

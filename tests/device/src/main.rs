@@ -18,6 +18,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+use boards::Board;
 use failure::Failure;
 
 /// The firmware in an emulator, compared with the simulator.
@@ -27,6 +28,9 @@ struct Arguments {
     /// The firmware's workspace, in which the boards have been built with `--release`
     #[arg(long, default_value = "firmware")]
     firmware: PathBuf,
+    /// Only this board, which may be given again [default: all]
+    #[arg(long = "board", value_enum, value_name = "BOARD", global = true)]
+    boards: Vec<Board>,
     #[command(subcommand)]
     command: Command,
 }
@@ -63,11 +67,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let Arguments { firmware, command } = Arguments::parse();
+    let Arguments { firmware, boards, command } = Arguments::parse();
+    let boards = if boards.is_empty() { Board::ALL.to_vec() } else { boards };
     let result = match command {
-        Command::Screens { frames, write } => screens::run(&firmware, frames, write),
-        Command::Faults { count } => faults::run(&firmware, count),
-        Command::Pace { check } => pace::run(&firmware, check),
+        Command::Screens { frames, write } => screens::run(&firmware, &boards, frames, write),
+        Command::Faults { count } => faults::run(&firmware, &boards, count),
+        Command::Pace { check } => pace::run(&firmware, &boards, check),
         Command::Film { frames } => film::run(&firmware, frames),
     };
     match result {

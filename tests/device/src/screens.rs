@@ -10,7 +10,7 @@ use galpix_link::frame::{Frame, Galpixels, NO_SCENE};
 use galpix_sim::send::pack;
 use galpix_sim::source::{fit, scene as sources};
 
-use crate::boards::{Board, Filling};
+use crate::boards::Board;
 use crate::emulator::{Emulator, Pace};
 use crate::expected::{self, Shows};
 use crate::failure::Failure;
@@ -32,9 +32,9 @@ const ROWS_SENT: usize = 64;
 
 /// Compares `frames` frames of each built-in scene, and of one that is sent over the line, on each board with either
 /// filling.
-pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
+pub fn run(firmware: &Path, boards: &[Board], frames: u32, write: bool) -> Result<(), Failure> {
     let mut hashes = Hashes::new();
-    for (board, filling) in Board::ALL.into_iter().flat_map(|board| Filling::ALL.map(|filling| (board, filling))) {
+    for (board, filling) in Board::programs(boards) {
         let named = |scene: &str| format!("{scene}{}", filling.suffix());
         let mut emulator = Emulator::start(board, filling, firmware, Pace::Free)?;
         lockstep(&mut emulator)?;
@@ -62,7 +62,7 @@ pub fn run(firmware: &Path, frames: u32, write: bool) -> Result<(), Failure> {
         }
         println!("{}: {}: {frames} frames, 0 pixels differ", board.name(), named(SENT.1));
     }
-    keep(firmware, &hashes, write)
+    keep(firmware, boards, hashes, write)
 }
 
 /// Sends an update that is exact at the frame which the board shows: that frame, and all words of each galpixel, row by
@@ -145,31 +145,54 @@ fn compare(emulator: &mut Emulator, board: Board, scene: &str, expected: &expect
     Ok(())
 }
 
-/// Compares with the kept hashes, or keeps these.
-fn keep(firmware: &Path, hashes: &Hashes, write: bool) -> Result<(), Failure> {
+/// The first line of the file of kept hashes.
+const HEAD: &str = "# Hashes of what the panels show: board, scene, frames since it began, CRC-32.";
+
+/// Compares with the kept hashes of these boards, or keeps these and leaves those of other boards.
+fn keep(firmware: &Path, boards: &[Board], mut hashes: Hashes, write: bool) -> Result<(), Failure> {
     let file = firmware.join(KEPT);
-    let mut text = String::from("# Hashes of what the panels show: board, scene, frames since it began, CRC-32.\n");
-    for ((board, scene, age), hash) in hashes {
-        let _ = writeln!(text, "{board} {scene} {age} {hash:08x}");
+    let kept = match std::fs::read_to_string(&file) {
+        Err(error) if !write => {
+            let file = file.display();
+            return Err(Failure::new(format!("{file} cannot be read ({error}): make it with --write")));
+        }
+        kept => kept.unwrap_or_default(),
+    };
+    let of_these = |board: &str| boards.iter().any(|known| known.name() == board);
+    let (mut before, mut others) = (Hashes::new(), Hashes::new());
+    for line in kept.lines().filter(|line| !line.starts_with('#')) {
+        let [board, scene, age, hash] = line.split(' ').collect::<Vec<_>>()[..] else {
+            return Err(Failure::new(format!("{}: `{line}` is no hash", file.display())));
+        };
+        let (Ok(age), Ok(hash)) = (age.parse(), u32::from_str_radix(hash, 16)) else {
+            return Err(Failure::new(format!("{}: `{line}` is no hash", file.display())));
+        };
+        let of = if of_these(board) { &mut before } else { &mut others };
+        of.insert((board.to_owned(), scene.to_owned(), age), hash);
     }
     if write {
+        let count = hashes.len();
+        hashes.extend(others);
+        let mut text = format!("{HEAD}\n");
+        for ((board, scene, age), hash) in &hashes {
+            let _ = writeln!(text, "{board} {scene} {age} {hash:08x}");
+        }
         std::fs::write(&file, text)
             .map_err(|error| Failure::new(format!("{} cannot be written: {error}", file.display())))?;
-        println!("{} hashes kept in {}", hashes.len(), file.display());
+        println!("{count} hashes kept in {}", file.display());
         return Ok(());
     }
-    let kept = std::fs::read_to_string(&file)
-        .map_err(|error| Failure::new(format!("{} cannot be read ({error}): make it with --write", file.display())))?;
-    let different = text.lines().zip(kept.lines()).find(|(a, b)| a != b);
-    match different {
-        None if text.lines().count() == kept.lines().count() => {
-            println!("{} hashes are the kept ones", hashes.len());
-            Ok(())
-        }
-        None => Err(Failure::new(format!("{} has other frames: make it anew with --write", file.display()))),
-        Some((now, kept)) => Err(Failure::new(format!(
-            "what the panels show has changed: now `{now}`, kept `{kept}`; if that is meant, make {} anew with --write",
-            file.display()
-        ))),
+    if hashes == before {
+        println!("{} hashes are the kept ones", hashes.len());
+        return Ok(());
     }
+    let changed = hashes.iter().find(|(key, hash)| before.get(*key) != Some(hash));
+    let what = match changed {
+        Some(((board, scene, age), hash)) => format!("{board} {scene} {age} has now {hash:08x}"),
+        None => "frames are kept that were not compared".to_owned(),
+    };
+    Err(Failure::new(format!(
+        "what the panels show has changed: {what}; if that is meant, make {} anew with --write",
+        file.display()
+    )))
 }

@@ -7,7 +7,6 @@
 #![no_main]
 #![forbid(unsafe_code)]
 
-mod clock;
 mod end;
 mod memory;
 mod panel;
@@ -29,6 +28,11 @@ type Display = galpix_link::panel::Oled;
 /// How galpixels are stored.
 type Stored = Static<Display>;
 
+/// The processor's clock after a reset, in Hz.
+const CLOCK: u32 = 12_500_000;
+/// Clocks from one vsync to the next: 60 a second.
+const TICKS_PER_FRAME: u32 = CLOCK / 60;
+
 /// What the board gives.
 struct Evaluation {
     oled: Oled,
@@ -40,21 +44,21 @@ impl Board for Evaluation {
     type Pixel = embedded_graphics::pixelcolor::Gray4;
     type Band = Band;
 
-    const TICKS_PER_FRAME: u32 = clock::TICKS_PER_FRAME;
+    const TICKS_PER_FRAME: u32 = TICKS_PER_FRAME;
 
     fn vsync(&mut self) -> u32 {
-        let now = clock::wait_beyond(self.vsyncs);
+        let now = galpix_tick::wait_beyond(self.vsyncs);
         let passed = now.wrapping_sub(self.vsyncs);
         self.vsyncs = now;
         passed
     }
 
     fn ticks(&self) -> u32 {
-        clock::ticks()
+        galpix_tick::ticks(TICKS_PER_FRAME)
     }
 
     fn stack(&self) -> (u32, u32) {
-        let (used, size) = galpix_registers::lm3s6965::stack();
+        let (used, size) = galpix_registers::cortex_m::stack();
         (used as u32, size as u32)
     }
 
@@ -84,9 +88,9 @@ fn main() -> ! {
     let lent = Lent::take();
     uart::start();
     let oled = Oled::start();
-    clock::start(peripherals.SYST);
+    galpix_tick::start(peripherals.SYST, TICKS_PER_FRAME);
     log_start(&Display::DESCRIPTION, Stored::new(), &SHARES);
-    let (_, stack) = galpix_registers::lm3s6965::stack();
+    let (_, stack) = galpix_registers::cortex_m::stack();
     defmt::info!("memory: {=usize} bytes are left for the stack", stack);
 
     let board = Evaluation { oled, band: lent.band, vsyncs: 0 };

@@ -1,7 +1,8 @@
 //! The line to the host: 115 200 baud.
 
+use galpix_registers::cortex_m::unmask;
 use galpix_registers::lm3s6965::{
-    RCGC1, UART0_CTL, UART0_DR, UART0_FBRD, UART0_FR, UART0_IBRD, UART0_ICR, UART0_IM, UART0_LCRH, unmask,
+    RCGC1, UART0_CTL, UART0_DR, UART0_FBRD, UART0_FR, UART0_IBRD, UART0_ICR, UART0_IM, UART0_LCRH,
 };
 use galpix_uart::{Registers, Uart};
 use lm3s6965::{Interrupt, interrupt};

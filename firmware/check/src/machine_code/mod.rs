@@ -13,7 +13,7 @@ use std::collections::HashSet;
 use crate::Findings;
 use image::Image;
 use instructions::Deed;
-use reach::{Finding, judge};
+use reach::{Finding, bytes_of, judge};
 
 /// What functions of this name may do.
 fn allowed(name: &str) -> Option<Deed> {
@@ -26,6 +26,16 @@ pub fn run(file: &str, names: &[&str]) -> Result<Findings, String> {
     let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
     let image = Image::read(&bytes).map_err(|error| format!("{file}: {error}"))?;
     look(&image, names).map_err(|error| format!("{file}: {error}"))
+}
+
+/// Returns the bytes that each function reaches whose name has a part that begins with `text_`: its name from that part
+/// on, with the part before, and code and constants.
+pub fn reached(file: &str) -> Result<Vec<(String, u64)>, String> {
+    let bytes = std::fs::read(file).map_err(|error| format!("{file}: {error}"))?;
+    let image = Image::read(&bytes).map_err(|error| format!("{file}: {error}"))?;
+    let entries = image.functions.iter().enumerate().filter(|(_, function)| function.name.contains("::text_"));
+    let entries: Vec<_> = entries.map(|(index, function)| (function.name.clone(), bytes_of(&image, index))).collect();
+    if entries.is_empty() { Err(format!("{file}: no function is named text_...")) } else { Ok(entries) }
 }
 
 fn look(image: &Image, names: &[&str]) -> Result<Findings, String> {

@@ -82,6 +82,22 @@ pub fn judge(image: &Image, entry: usize, allowed: Option<Deed>) -> Result<Verdi
     Ok(verdict)
 }
 
+/// Returns the bytes of all code and constants that the function at `entry` reaches, itself included.
+pub fn bytes_of(image: &Image, entry: usize) -> u64 {
+    let start = Mention::Function(entry);
+    let (mut seen, mut queue, mut bytes) = (HashSet::from([start]), VecDeque::from([start]), 0);
+    while let Some(place) = queue.pop_front() {
+        let (size, mentions) = match place {
+            Mention::Function(index) => (image.functions[index].code.len() as u64, &image.functions[index].mentions),
+            Mention::Data(index) => (image.data[index].size, &image.data[index].mentions),
+            Mention::Unknown(_) => continue,
+        };
+        bytes += size;
+        queue.extend(mentions.iter().filter(|&&mention| seen.insert(mention)));
+    }
+    bytes
+}
+
 /// Reads one function, literals left out.
 fn look_into(
     machine: Machine,

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use galpix_link::frame::{Frame, Galpixels, MAX_ENCODED, MAX_PAYLOAD, MAX_WORD_BYTES, Status};
-use galpix_link::panel::{self, Lcd, Oled, Panel};
+use galpix_link::panel::{self, Lcd, Oled, Panel, Tft};
 use galpix_link::rejected::Rejected;
 
 use super::wire::{encoded, receive};
@@ -41,7 +41,9 @@ fn the_examples_are_frames() {
 #[test]
 fn the_tables_are_those_of_the_product() {
     let document = document();
-    for (panel, record) in [(Oled::DESCRIPTION, Oled::RECORD), (Lcd::DESCRIPTION, Lcd::RECORD)] {
+    for (panel, record) in
+        [(Oled::DESCRIPTION, Oled::RECORD), (Tft::DESCRIPTION, Tft::RECORD), (Lcd::DESCRIPTION, Lcd::RECORD)]
+    {
         let cells = row(&document, &[panel.name, &format!("{} x {}", panel.width, panel.height)]);
         let numbers =
             [record.words(), record.bits() as usize, panel.galpixels_per_frame()].map(|number| number.to_string());

@@ -2,7 +2,7 @@
 
 use galpix_core::record::Field;
 use galpix_link::frame::Galpixels;
-use galpix_link::panel::{self, Lcd, Oled, Panel};
+use galpix_link::panel::{self, Lcd, Oled, Panel, Tft};
 use galpix_link::rejected::Rejected;
 
 use super::wire::crc32;
@@ -54,6 +54,7 @@ fn hashed<P: Panel>(channels: &[u8]) -> Vec<u8> {
 #[test]
 fn fingerprints_are_of_what_gives_a_galpixel_its_meaning() {
     assert_eq!(Oled::DESCRIPTION.fingerprint, crc32(&hashed::<Oled>(&[0, 4])));
+    assert_eq!(Tft::DESCRIPTION.fingerprint, crc32(&hashed::<Tft>(&[11, 5, 5, 6, 0, 5])));
     assert_eq!(Lcd::DESCRIPTION.fingerprint, crc32(&hashed::<Lcd>(&[11, 5, 5, 6, 0, 5])));
     for panel in panel::ALL {
         assert_eq!(panel::with_fingerprint(panel.fingerprint), Some(panel));
@@ -64,6 +65,7 @@ fn fingerprints_are_of_what_gives_a_galpixel_its_meaning() {
 #[test]
 fn panels_fill_their_words() {
     assert_eq!((Oled::RECORD.words(), Oled::RECORD.bits(), Oled::DESCRIPTION.galpixels_per_frame()), (1, 32, 56));
+    assert_eq!((Tft::RECORD.words(), Tft::RECORD.bits(), Tft::DESCRIPTION.galpixels_per_frame()), (2, 64, 28));
     assert_eq!((Lcd::RECORD.words(), Lcd::RECORD.bits(), Lcd::DESCRIPTION.galpixels_per_frame()), (3, 96, 18));
     assert_eq!((Oled::MAP_WORDS, Lcd::MAP_WORDS), (128 * 64, 3 * 320 * 240));
 }

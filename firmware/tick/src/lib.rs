@@ -1,22 +1,22 @@
-//! The clock tick and the vsync. The panel has no vsync of its own to tell: the tick is the vsync.
+//! The clock tick and the vsync of boards whose panel has no vsync of its own to tell: the tick is the vsync.
+//!
+//! It is the SysTick timer, which every Cortex-M has, and its interrupt.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m::peripheral::{SCB, SYST};
 
-/// The processor's clock after a reset, in Hz.
-const CLOCK: u32 = 12_500_000;
-
-/// Ticks of the clock from one vsync to the next: 60 a second.
-pub const TICKS_PER_FRAME: u32 = CLOCK / 60;
-
 static VSYNCS: AtomicU32 = AtomicU32::new(0);
 
-/// Starts the tick.
-pub fn start(mut timer: SYST) {
+/// Starts the tick: one every `ticks_per_frame` clocks of the processor, at most 2 to the 24.
+pub fn start(mut timer: SYST, ticks_per_frame: u32) {
     timer.set_clock_source(SystClkSource::Core);
-    timer.set_reload(TICKS_PER_FRAME - 1);
+    timer.set_reload(ticks_per_frame - 1);
     timer.clear_current();
     timer.enable_counter();
     timer.enable_interrupt();
@@ -27,7 +27,7 @@ fn SysTick() {
     VSYNCS.store(VSYNCS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
 }
 
-/// Sleeps until there have been other than `seen` vsyncs: how many there have been.
+/// Sleeps until there have been other than `seen` vsyncs; returns how many there have been.
 pub fn wait_beyond(seen: u32) -> u32 {
     loop {
         let now = VSYNCS.load(Ordering::Relaxed);
@@ -44,8 +44,8 @@ pub fn wait_beyond(seen: u32) -> u32 {
     }
 }
 
-/// Ticks since the start; wraps.
-pub fn ticks() -> u32 {
+/// Returns the clocks since the start, with as many to a frame as [`start`] was told; wraps.
+pub fn ticks(ticks_per_frame: u32) -> u32 {
     loop {
         let vsyncs = VSYNCS.load(Ordering::Relaxed);
         let left = SYST::get_current();
@@ -53,8 +53,8 @@ pub fn ticks() -> u32 {
         let pending = u32::from(SCB::is_pendst_pending());
         if VSYNCS.load(Ordering::Relaxed) == vsyncs && SYST::get_current() <= left {
             // The timer counts down, and is 0 where it begins anew.
-            let since = if left == 0 { 0 } else { TICKS_PER_FRAME - left };
-            return vsyncs.wrapping_add(pending).wrapping_mul(TICKS_PER_FRAME).wrapping_add(since);
+            let since = if left == 0 { 0 } else { ticks_per_frame - left };
+            return vsyncs.wrapping_add(pending).wrapping_mul(ticks_per_frame).wrapping_add(since);
         }
     }
 }
