@@ -1,9 +1,8 @@
 """Check a folder of golden vectors (vectors.md) against the model: every hash, every file, every output, bit by bit.
 
-    python3 check_vectors.py DIR [--require-all-rules] [--coverage]
+    python3 check_vectors.py DIR [--require-all-rules]
 
-Exit code 0: all agree. 1: something differs, or (with --require-all-rules) some rule was never reached, or (with
---coverage) nothing exercises a section of the specification. 2: the folder
+Exit code 0: all agree. 1: something differs, or (with --require-all-rules) some rule was never reached. 2: the folder
 cannot be read as vectors; one sentence on stderr says why.
 """
 
@@ -15,7 +14,6 @@ import zlib
 from collections import Counter, namedtuple
 from pathlib import Path
 
-import coverage
 import galpix_model as model
 
 SHOWN_OF_A_CASE = 5
@@ -748,8 +746,6 @@ def main():
     parser.add_argument("folder", type=Path, metavar="DIR")
     parser.add_argument("--require-all-rules", action="store_true",
                         help="fail if any rule that vectors can reach was never reached")
-    parser.add_argument("--coverage", action="store_true",
-                        help="print what exercises each section of the specification; fail if one is exercised by nothing")
     arguments = parser.parse_args()
     differences = Differences()
     try:
@@ -774,10 +770,6 @@ def main():
         for rule in never:
             print(f"  never reached: {rule}")
         code = 1 if never else code
-    if arguments.coverage:
-        lines, missing = coverage.table(model.RULES, model.reached)
-        print(*lines, *missing, sep="\n")
-        code = 1 if missing else code
     if not differences:
         print(f"{sum(cases.values())} cases, {sum(frames.values())} frames agree")
     return code
