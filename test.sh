@@ -14,7 +14,8 @@ export CARGO_INCREMENTAL="${CARGO_INCREMENTAL:-0}"
 
 BARE_TARGETS=(thumbv6m-none-eabi riscv32imac-unknown-none-elf)
 FIRMWARE_TARGETS=(thumbv7m-none-eabi thumbv7em-none-eabi)
-STEPS=(format width clippy docs tests no-std codegen constant-time model proofs benches msrv package fuzz firmware)
+STEPS=(format width clippy docs tests no-std codegen constant-time model proofs python benches msrv package fuzz
+    firmware)
 QUICK=(format width clippy unit golden)
 
 summary=() passed=0 failed=0 skipped=0
@@ -159,6 +160,14 @@ step_proofs() {
     local status=0
     tests/proofs/run.sh --quick || status=$?
     [ "$status" != 3 ] || { skip "python3, or the solver from its package registry, cannot be had here"; return; }
+    return "$status"
+}
+
+# The Python package: wheel, sdist, ten lines in an empty environment, its tests on the wheel.
+step_python() {
+    local status=0
+    python/test.sh || status=$?
+    [ "$status" != 3 ] || { skip "some parts of python/test.sh could not run, see above"; return; }
     return "$status"
 }
 

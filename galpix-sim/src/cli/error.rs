@@ -12,7 +12,7 @@ use super::drive::{Publication, drive};
 use super::{CliError, call};
 use crate::engine::fill::Fill;
 use crate::study::error::design::{Extent, Kept};
-use crate::study::error::{self, Plan};
+use crate::study::error::{self, Plan, Shard};
 use crate::study::job::Request;
 
 /// Which fields a galpixel carries besides class and colour.
@@ -91,6 +91,10 @@ pub struct Error {
     /// What is done with the accelerations of a capture
     #[arg(long, value_enum, value_name = "POLICY", default_value_t)]
     acceleration: AccelerationChoice,
+    /// Measure the K-th of N parts of the points, so that several machines share them: a point has the same number and
+    /// the same errors in every call
+    #[arg(long, value_name = "K/N", default_value = "1/1")]
+    shard: Shard,
     /// Folder for error.html, error.csv and error.json [default: galpix-out/error; with --json nothing is written
     /// without it]
     #[arg(long, value_name = "DIR")]
@@ -145,6 +149,7 @@ impl Error {
             fills: all(fills.is_empty()).map_or(fills, |()| FillMode::ALL.map(Fill::from).to_vec()),
             schemes: schemes(&self.scheme),
             extent,
+            shard: self.shard,
         }
     }
 }

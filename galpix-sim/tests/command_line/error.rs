@@ -196,6 +196,30 @@ fn a_point_has_the_measures_of_a_run() {
     }
 }
 
+/// Whoever measures a point, it has the same number and the same errors; parts together are the whole, and a part may
+/// be without any point.
+#[test]
+fn parts_are_the_whole() {
+    let folder = folder();
+    let few = ["error", "crossing", "--quick", "--frames=2", "--lanes=still,full", "--roundings=truncate", "--json"];
+    let errors = |part: &str| -> Vec<Value> {
+        let document = json(folder.path(), &[&few[..], &["--shard", part]].concat());
+        let points = document["sources"][0]["points"].as_array().unwrap().clone();
+        let without_times = |mut point: Value| {
+            let times = ["run_time", "compile_time"];
+            point.as_object_mut().unwrap().retain(|key, _| !times.contains(&key.as_str()));
+            point
+        };
+        points.into_iter().map(without_times).collect()
+    };
+    let whole = errors("1/1");
+    let mut parts: Vec<Value> = ["1/3", "2/3", "3/3"].into_iter().flat_map(errors).collect();
+    parts.sort_by_key(|point| point["id"].as_u64());
+    assert!(whole.len() > 6, "{} points", whole.len());
+    assert_eq!(parts, whole);
+    assert!(errors("99/99").is_empty());
+}
+
 #[test]
 fn inpainting_is_a_fill_that_can_be_asked_for() {
     let folder = folder();
@@ -267,6 +291,8 @@ fn what_cannot_be_used_is_refused_before_anything_is_written() {
         (&["crossing", "--scheme", "source", "--rungs", "bullet"], &["--rungs bullet", "push-pull"]),
         (&["crossing", "--lanes", "wheels"], &["wheels"]),
         (&["crossing", "--quick", "--full"], &["cannot be used with"]),
+        (&["crossing", "--shard", "3/2"], &["--shard", "K from 1 to N"]),
+        (&["crossing", "--shard", "0/2"], &["--shard", "K from 1 to N"]),
         (&["crossing", "--quick", "--out", "file/below"], &["cannot be written", "--out"]),
         (&[], &["SOURCE"]),
     ] {

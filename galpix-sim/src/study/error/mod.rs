@@ -57,6 +57,40 @@ pub struct Plan {
     pub schemes: Vec<engine::Scheme>,
     /// How many configurations.
     pub extent: Extent,
+    /// Which of them, and of the floats.
+    pub shard: Shard,
+}
+
+/// A part of the points, so that several machines share them: of `of` parts the one that is counted `number`, from 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Which part.
+    pub number: usize,
+    /// Of how many.
+    pub of: usize,
+}
+
+impl Shard {
+    /// All points.
+    pub const WHOLE: Self = Self { number: 1, of: 1 };
+
+    /// Returns whether the point of this number, counted from 1, is in the part.
+    #[must_use]
+    pub const fn takes(self, id: usize) -> bool {
+        id % self.of == self.number % self.of
+    }
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if 1 <= number && number <= of => Ok(Self { number, of }),
+            _ => Err("give K/N with K from 1 to N, as 3/16 for the third of sixteen parts".to_owned()),
+        }
+    }
 }
 
 /// Everything that was measured.
@@ -174,7 +208,11 @@ fn study(job: &Job<'_>, plan: &Plan, notify: &(dyn Fn(Work<'_>) + Sync)) -> Resu
         }
         extent => extent,
     };
-    let (points, noise) = run.points(&axes.design(extent), &mut left_out, notify)?;
+    let (points, noise) = run.points((&axes.design(extent), plan.shard), &mut left_out, notify)?;
+    if plan.shard != Shard::WHOLE {
+        let Shard { number, of } = plan.shard;
+        left_out.push(format!("These are the points of part {number} of {of}; fronts are of these alone."));
+    }
 
     let middle = axes.middle();
     let job = job.with_rounding(middle.rounding).with_scheme(middle.scheme).with_fill(middle.fill);

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::design::{Configuration, Kept, Step};
 use super::frames::{FrameError, Summary};
 use super::report::{Point, Scheme};
-use super::{Run, float, measure, stand_in};
+use super::{Run, Shard, float, measure, stand_in};
 use crate::certificate::Certificate;
 use crate::engine;
 use crate::engine::fill::Fill;
@@ -68,10 +68,11 @@ impl Run<'_> {
         Ok(Candidate { configuration, bits, format, settings })
     }
 
-    /// Measures the configurations, and floats. What has no budget is left out, with the reason.
+    /// Measures the configurations, and floats: of both those of the shard. What has no budget is left out, with the
+    /// reason.
     pub(super) fn points(
         &self,
-        design: &[Configuration],
+        (design, shard): (&[Configuration], Shard),
         left_out: &mut Vec<String>,
         notify: &(dyn Fn(Work<'_>) + Sync),
     ) -> Result<(Vec<Point>, Option<Noise>), ExperimentError> {
@@ -90,6 +91,13 @@ impl Run<'_> {
             }
         }
         let floats = Self::float_configurations(&candidates);
+        // A point has the same number in every shard.
+        let ids: Vec<usize> = (1..=candidates.len() + floats.len()).filter(|&id| shard.takes(id)).collect();
+        let engines = candidates.len();
+        let candidates: Vec<Candidate> =
+            (1..).zip(candidates).filter(|&(id, _)| shard.takes(id)).map(|(_, candidate)| candidate).collect();
+        let floats: Vec<Configuration> =
+            (engines + 1..).zip(floats).filter(|&(id, _)| shard.takes(id)).map(|(_, float)| float).collect();
         notify(Work::Ahead(candidates.len() as u64));
         let certificates = self.certificates(&candidates);
         let mut points: Vec<Point> = candidates
@@ -102,7 +110,7 @@ impl Run<'_> {
             .collect::<Result<_, _>>()?;
         points.par_extend(floats.par_iter().map(|configuration| self.floats(configuration)));
         let noise = self.time(&candidates, &floats, &mut points, notify);
-        for (point, id) in points.iter_mut().zip(1..) {
+        for (point, id) in points.iter_mut().zip(ids) {
             point.id = id;
         }
         Ok((points, noise))

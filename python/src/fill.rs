@@ -1,0 +1,248 @@
+//! Fills of a plain image: by inpainting, or by a fill mode of the core.
+
+use fixed::types::I32F32;
+use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, Picture, PushPull, Recipe};
+use galpix_core::stages::{self, NO_WINNER};
+use galpix_core::{
+    Class, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Margin, Scratch, Settings, SetupError, Tally,
+};
+use galpix_sim::engine::fill::{Fill, Kind};
+use numpy::{PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::arrays::{Floats, Numbers, optional, slice, zeros};
+use crate::bits::{BudgetWidths, LayoutFields, format};
+use crate::map::{Counts, counts};
+use crate::names::{self, value_error};
+
+/// How an image is inpainted: attributes of an object of the package.
+#[derive(FromPyObject)]
+pub struct Way {
+    method: String,
+    gamma: Option<String>,
+    levels: u32,
+    seed: u32,
+    coloured: bool,
+    bgr: bool,
+}
+
+/// An image, and where it has holes.
+#[derive(FromPyObject)]
+pub struct Holed<'py> {
+    /// Bytes; the result is written here too.
+    image: PyReadwriteArrayDyn<'py, u8>,
+    /// A byte for each pixel: not 0 for a hole.
+    mask: PyReadonlyArrayDyn<'py, u8>,
+    /// 0 the nearest, 1 the farthest.
+    depth: Option<Floats<'py>>,
+}
+
+/// Fills the holes of an image of one or three channels in place; returns how many were filled.
+#[pyfunction]
+pub fn inpaint(py: Python<'_>, holed: Holed<'_>, way: Way) -> PyResult<u32> {
+    let Holed { mut image, mask, depth } = holed;
+    let shape = image.shape().to_vec();
+    let (height, width) = (shape[0], shape[1]);
+    let channels = shape.get(2).copied().unwrap_or(1);
+    let cells = height * width;
+    let depth = optional(depth.as_ref(), cells)?;
+    let mask = slice(&mask, cells)?;
+    let bytes = image.as_slice_mut()?;
+    let size = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
+    let Fill::Inpaint(inpaint) = names::fill(&way.method, way.gamma.as_deref())? else {
+        return Err(value_error(format!("`method` is '{}': give push-pull or metamer", way.method)));
+    };
+    let recipe = Recipe { levels: way.levels, seed: way.seed, coloured: way.coloured, ..Recipe::default() };
+    let filled = py.detach(|| {
+        let depths = depth.map(|depth| (0..cells).map(|cell| depth_word(depth.at(cell))).collect::<Vec<u32>>());
+        let inpainting = match &depths {
+            Some(_) => Inpainting::for_depth(Inpainting::DEPTH_BITS, inpaint.gamma),
+            None => Inpainting { gamma: inpaint.gamma, ..Inpainting::classic() },
+        };
+        let order = match (channels, way.bgr) {
+            (1, _) => Order::Gray,
+            (_, false) => Order::Rgb,
+            (_, true) => Order::Bgr,
+        };
+        let mut colours = order.words(bytes);
+        let known = zeros(mask);
+        let mut picture = Picture::new(size[0], size[1], order.colour(), &mut colours, &known)?;
+        if let Some(depths) = &depths {
+            picture = picture.with_depths(depths)?;
+        }
+        let filled = fill(inpaint.kind, &recipe, size, (&mut picture, &inpainting))?;
+        order.put(bytes, &colours, mask);
+        Ok(filled)
+    });
+    filled.map_err(|error: SetupError| value_error(error))
+}
+
+/// Returns a depth in the bits that inpainting keeps.
+fn depth_word(depth: f64) -> u32 {
+    let top = f64::from((1_u32 << Inpainting::DEPTH_BITS) - 1);
+    // `as` saturates; what is not a number is nearest, and a hole has a depth or is told apart by none.
+    (depth * top).round().min(top) as u32
+}
+
+fn fill(
+    kind: Kind,
+    recipe: &Recipe,
+    [width, height]: [u32; 2],
+    (picture, inpainting): (&mut Picture<'_>, &Inpainting<'_>),
+) -> Result<u32, SetupError> {
+    match kind {
+        Kind::PushPull => {
+            let mut memory = vec![0; PushPull::words(width, height, Motion::Kept)];
+            Ok(PushPull::new(width, height, Motion::Kept, &mut memory)?.fill_picture(picture, inpainting))
+        }
+        Kind::Metamer => {
+            let mut memory = vec![0; Metamer::words(width, height, recipe.levels)];
+            let mut workspace = Box::new(MetamerWorkspace::new());
+            Metamer::new(width, height, *recipe, &mut memory, &mut workspace)?.fill_picture(picture, inpainting, &[])
+        }
+    }
+}
+
+/// The order of the channels of a pixel.
+#[derive(Clone, Copy)]
+enum Order {
+    Gray,
+    Rgb,
+    Bgr,
+}
+
+impl Order {
+    const fn colour(self) -> Colour {
+        match self {
+            Self::Gray => Colour::GRAY8,
+            Self::Rgb | Self::Bgr => Colour::RGB888,
+        }
+    }
+
+    /// Returns a colour word for each pixel.
+    fn words(self, bytes: &[u8]) -> Vec<u32> {
+        let triples = || bytes.as_chunks::<3>().0.iter();
+        match self {
+            Self::Gray => bytes.iter().map(|&byte| u32::from(byte)).collect(),
+            Self::Rgb => triples().map(|&[r, g, b]| u32::from_be_bytes([0, r, g, b])).collect(),
+            Self::Bgr => triples().map(|&[b, g, r]| u32::from_be_bytes([0, r, g, b])).collect(),
+        }
+    }
+
+    /// Puts the colours of the holes into an image.
+    fn put(self, bytes: &mut [u8], colours: &[u32], mask: &[u8]) {
+        let holes = mask.iter().enumerate().filter(|&(_, &byte)| byte != 0).map(|(cell, _)| cell);
+        for cell in holes {
+            let [_, r, g, b] = colours[cell].to_be_bytes();
+            match self {
+                Self::Gray => bytes[cell] = b,
+                Self::Rgb => bytes[3 * cell..][..3].copy_from_slice(&[r, g, b]),
+                Self::Bgr => bytes[3 * cell..][..3].copy_from_slice(&[b, g, r]),
+            }
+        }
+    }
+}
+
+/// The frame before, and what of it arrived: attributes of an object of the package.
+#[derive(FromPyObject)]
+pub struct Arrived<'py> {
+    budget: BudgetWidths,
+    layout: LayoutFields,
+    fill: String,
+    reach: u32,
+    edge_threshold: Option<u32>,
+    /// The image: (rows, columns, 3) bytes; the result is written here too.
+    image: PyReadwriteArrayDyn<'py, u8>,
+    mask: PyReadonlyArrayDyn<'py, u8>,
+    depth: Option<Floats<'py>>,
+    /// (rows, columns, 2), written too.
+    velocity: Option<PyReadwriteArrayDyn<'py, f64>>,
+}
+
+/// Fills the holes of an image of galpixels that stand still for this frame by a fill mode of the core, in place.
+#[pyfunction]
+pub fn fill_mode(py: Python<'_>, arrived: Arrived<'_>) -> PyResult<Counts> {
+    let Arrived { budget, layout, fill, reach, edge_threshold, mut image, mask, depth, mut velocity } = arrived;
+    let format = format(&budget, &layout)?;
+    let (height, width) = (image.shape()[0], image.shape()[1]);
+    let cells = height * width;
+    let mask = slice(&mask, cells)?;
+    let depth = optional(depth.as_ref(), cells)?;
+    let bytes = image.as_slice_mut()?;
+    let velocity = velocity.as_mut().map(|velocity| velocity.as_slice_mut()).transpose()?;
+    let Fill::Mode(fill_mode) = names::fill(&fill, None)? else {
+        return Err(value_error(format!("`method` is '{fill}': it inpaints and is no fill mode")));
+    };
+    let depth_bits = u32::from(format.record().depth().bits);
+    let usual = Settings::for_depth(depth_bits);
+    let edge_threshold = edge_threshold.unwrap_or(usual.edge_threshold);
+    let settings = Settings { fill_mode, reach, edge_threshold, ..usual };
+    let tally = py.detach(|| filled(format, [width, height], &settings, Image { bytes, mask, depth, velocity }));
+    Ok(counts(&tally.map_err(value_error)?))
+}
+
+/// What is filled.
+struct Image<'a> {
+    bytes: &'a mut [u8],
+    mask: &'a [u8],
+    depth: Option<Numbers<'a>>,
+    velocity: Option<&'a mut [f64]>,
+}
+
+fn filled(
+    format: Dynamic,
+    [width, height]: [usize; 2],
+    settings: &Settings,
+    image: Image<'_>,
+) -> Result<Tally, SetupError> {
+    let Image { bytes, mask, depth, mut velocity } = image;
+    let (columns, rows) = (u32::try_from(width).unwrap_or(u32::MAX), u32::try_from(height).unwrap_or(u32::MAX));
+    let mut starts = vec![0; height];
+    let grid = Grid::new(columns, rows, Margin::NONE, &mut starts)?;
+    let words = Galpixmap::<Dynamic>::words(&grid, format);
+    let (mut before, mut after) = (vec![0; words], vec![0; words]);
+    let mut before = Galpixmap::new(grid, format, &mut before)?;
+    let mut after = Galpixmap::new(grid, format, &mut after)?;
+    let (mut winners, mut edges) = (vec![NO_WINNER; mask.len()], vec![0; stages::words(&grid)]);
+    let place = |cell: usize| ((cell % width) as i32, (cell / width) as i32);
+    for (cell, colour) in bytes.as_chunks::<3>().0.iter().enumerate() {
+        let (x, y) = place(cell);
+        let depth = depth.map_or(0.0, |depth| depth.at(cell));
+        let [vx, vy] = velocity.as_deref().map_or([0.0; 2], |velocity| [velocity[2 * cell], velocity[2 * cell + 1]]);
+        let known = depth.is_finite() && vx.is_finite() && vy.is_finite();
+        let number = I32F32::saturating_from_num::<f64>;
+        let galpixel = match known {
+            true => Galpixel {
+                colour: *colour,
+                depth: number(depth),
+                velocity: [number(vx), number(vy), I32F32::ZERO],
+                ..Galpixel::default()
+            },
+            false => Galpixel { class: Class::Empty, colour: *colour, ..Galpixel::default() },
+        };
+        before.store(x, y, &galpixel);
+        if mask[cell] == 0 && known {
+            after.store(x, y, &galpixel);
+            winners[cell] = cell as u32;
+        }
+    }
+    let mut tally = Tally::default();
+    if settings.fill_mode.uses_edges() {
+        tally.edges = stages::mark(&before, settings.edge_threshold, &mut edges);
+    }
+    let mut scratch = Scratch { winners: &mut winners, edges: &mut edges };
+    stages::fill(&before, &mut after, &mut scratch, settings, &mut tally);
+    for (cell, &hole) in mask.iter().enumerate() {
+        if hole == 0 {
+            continue;
+        }
+        let (x, y) = place(cell);
+        let galpixel = after.load(x, y).unwrap_or_default();
+        bytes[3 * cell..][..3].copy_from_slice(&galpixel.colour);
+        if let Some(velocity) = &mut velocity {
+            let [vx, vy, _] = galpixel.velocity.map(|v| v.to_num::<f64>());
+            velocity[2 * cell..][..2].copy_from_slice(&[vx, vy]);
+        }
+    }
+    Ok(tally)
+}
