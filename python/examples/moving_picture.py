@@ -1,6 +1,7 @@
 """A moving picture as a numpy array, in ten lines."""
 
 import numpy
+
 import galpix
 
 colour = numpy.zeros((144, 192, 3), numpy.uint8)  # What a renderer drew ...

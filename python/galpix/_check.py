@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Optional, Sequence
+from collections.abc import Sequence
+from typing import Any, Optional
 
 import numpy as np
 
@@ -22,12 +23,16 @@ def shaped(value: np.ndarray, name: str, shape: Sequence[int], what: str) -> np.
 
 
 def picture(value: Any, name: str) -> np.ndarray:
-    """Return a uint8 array of shape (rows, columns, 3) whose rows follow each other; it is copied only if they do not."""
+    """Return a uint8 array of shape (rows, columns, 3) whose rows follow each other, copied only if they do not."""
     value = array(value, name)
     if value.dtype != np.uint8:
-        raise TypeError(f"`{name}` is of dtype {value.dtype}: give uint8 from 0 to 255, as {name}.astype(numpy.uint8)")
+        raise TypeError(
+            f"`{name}` is of dtype {value.dtype}: give uint8 from 0 to 255, as {name}.astype(numpy.uint8)"
+        )
     if value.ndim != 3 or value.shape[2] != 3 or 0 in value.shape:
-        raise ValueError(f"`{name}` has shape {value.shape}: give (rows, columns, 3), red, green and blue of each pixel")
+        raise ValueError(
+            f"`{name}` has shape {value.shape}: give (rows, columns, 3), red, green and blue of each pixel"
+        )
     return np.ascontiguousarray(value)
 
 
@@ -48,7 +53,9 @@ def floats(value: Any, name: str, shape: Sequence[int]) -> Optional[np.ndarray]:
         return None
     value = array(value, name)
     if value.dtype != np.float32 and value.dtype != np.float64:
-        raise TypeError(f"`{name}` is of dtype {value.dtype}: give float32 or float64, as {name}.astype(numpy.float32)")
+        raise TypeError(
+            f"`{name}` is of dtype {value.dtype}: give float32 or float64, as {name}.astype(numpy.float32)"
+        )
     return np.ascontiguousarray(shaped(value, name, shape, "the picture")).reshape(-1)
 
 
@@ -80,10 +87,14 @@ def out(value: Any, name: str, shape: Sequence[int]) -> np.ndarray:
         return np.empty(tuple(shape), np.uint8)
     value = array(value, name)
     if value.dtype != np.uint8:
-        raise TypeError(f"`{name}` is of dtype {value.dtype}: give uint8, as numpy.empty({tuple(shape)}, numpy.uint8)")
+        raise TypeError(
+            f"`{name}` is of dtype {value.dtype}: give uint8, as numpy.empty({tuple(shape)}, numpy.uint8)"
+        )
     shaped(value, name, shape, "the result")
     if not value.flags.c_contiguous or not value.flags.writeable:
-        raise ValueError(f"`{name}` cannot be written in place: give a writeable array in C order, as numpy.empty makes")
+        raise ValueError(
+            f"`{name}` cannot be written in place: give a writeable array in C order, as numpy.empty makes"
+        )
     return value
 
 

@@ -115,7 +115,9 @@ class Budget:
         ValueError
             If no such budget exists; the sentence says what to change.
         """
-        numbers = [whole(value, name, 0, _MOST) for value, name in ((extent, "extent"), (recog, "recog"), (prop, "prop"))]
+        numbers = [
+            whole(value, name, 0, _MOST) for value, name in ((extent, "extent"), (recog, "recog"), (prop, "prop"))
+        ]
         widths, depth_int, luminosity_int, luminosity_frac = _galpix.derive(*numbers, bool(acceleration))
         component = Component(*widths)
         return cls(component, component, component, depth_int, luminosity_int, luminosity_frac, numbers[2])
@@ -224,6 +226,12 @@ def smallest_budget(
     widths, proof = _galpix.smallest(derived.x, rounding, derived.prop, float(max_error))
     component = Component(*widths)
     budget = Budget(
-        component, component, component, derived.depth_int, derived.luminosity_int, derived.luminosity_frac, derived.prop
+        component,
+        component,
+        component,
+        derived.depth_int,
+        derived.luminosity_int,
+        derived.luminosity_frac,
+        derived.prop,
     )
     return budget, Certificate(**proof)

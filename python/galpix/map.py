@@ -233,6 +233,10 @@ class Galpixmap:
         """Make one frame; return its counts."""
         return Tally(*self._map.step())
 
+    def skip(self, frames: int) -> list[Tally]:
+        """Make frames that are not shown, at least 1; return their counts."""
+        return [Tally(*counts) for counts in self._map.skip(_check.whole(frames, "frames", 1, 1 << 20))]
+
     def run(self, frames: int, out: Optional[np.ndarray] = None) -> tuple[np.ndarray, list[Tally]]:
         """Make frames; return what the display shows of each, and their counts.
 
@@ -295,9 +299,7 @@ class Galpixmap:
         """
         if mask is not None and (_check.array(mask, "mask").dtype != np.uint32 or mask.ndim != 1):
             raise TypeError("`mask` is no row of uint32: give one bit a cell, 32 in each word")
-        painting = SimpleNamespace(
-            gamma=gamma, threshold=threshold, background=background, motion=motion, mask=mask
-        )
+        painting = SimpleNamespace(gamma=gamma, threshold=threshold, background=background, motion=motion, mask=mask)
         return self._map.inpaint(painting)
 
     def disocclusion(

@@ -56,7 +56,9 @@ def _pyarrow() -> Any:
         import pyarrow
         import pyarrow.parquet
     except ImportError as error:
-        raise ImportError("a sweep writes Parquet, and pyarrow is not installed: pip install 'galpix[sweep]'") from error
+        raise ImportError(
+            "a sweep writes Parquet, and pyarrow is not installed: pip install 'galpix[sweep]'"
+        ) from error
     return pyarrow
 
 
@@ -132,7 +134,9 @@ def _table(made: list[dict[str, Any]]) -> Any:
     pa = _pyarrow()
     texts = ("capture", "budget", "rounding", "fill", "scheme", "scan_out")
     whole = ("frame", *_BUDGET, *_COUNTS)
-    kinds = [(name, pa.string() if name in texts else pa.int64() if name in whole else pa.float64()) for name in made[0]]
+    kinds = [
+        (name, pa.string() if name in texts else pa.int64() if name in whole else pa.float64()) for name in made[0]
+    ]
     return pa.Table.from_pylist(made, schema=pa.schema(kinds))
 
 
@@ -228,6 +232,7 @@ def read(folder: Union[str, os.PathLike]) -> Any:
 
 def equal_but_for_times(one: Any, other: Any) -> bool:
     """Return whether two tables have the same bits in every column but those of times."""
+
     def bits(table: Any) -> list[Any]:
         kept = [name for name in table.column_names if name not in TIMES]
         return [kept, *(_bits(table.column(name)) for name in kept)]
@@ -255,8 +260,20 @@ def points(document: Mapping[str, Any]) -> Any:
             for frame in point["frames"]:
                 row = {"source": source["source"], "id": point["id"]}
                 row.update({name: point.get(name) for name in ("scheme", "lanes", "budget", "rounding", "rung")})
-                row.update(dict(zip(("position_frac", "velocity_int", "velocity_frac", "acceleration_int",
-                                     "acceleration_frac"), bits)))
+                row.update(
+                    dict(
+                        zip(
+                            (
+                                "position_frac",
+                                "velocity_int",
+                                "velocity_frac",
+                                "acceleration_int",
+                                "acceleration_frac",
+                            ),
+                            bits,
+                        )
+                    )
+                )
                 row.update({name: point[name] for name in ("bytes", "used_bits", "saturated")})
                 for name, time in (("run_time", point["run_time"]), ("compile_time", point["compile_time"])):
                     row[f"{name}_frame_us"] = (time or {}).get("frame_us")
@@ -266,8 +283,12 @@ def points(document: Mapping[str, Any]) -> Any:
         raise ValueError("the document has no point: give what `galpix error --json` printed")
     names = list(dict.fromkeys(name for row in made for name in row))
     columns = {name: [row.get(name) for row in made] for name in names}
-    return pa.table({name: pa.array(values, pa.null() if not any(v is not None for v in values) else None)
-                     for name, values in columns.items()})
+    return pa.table(
+        {
+            name: pa.array(values, pa.null() if not any(v is not None for v in values) else None)
+            for name, values in columns.items()
+        }
+    )
 
 
 def _flat(value: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

@@ -70,8 +70,23 @@ pub fn slice<'a, T: Element>(array: &'a PyReadonlyArrayDyn<'_, T>, count: usize)
     }
 }
 
-/// Returns a bit for each byte that is 0: cell `c` is bit `c mod 32` of word `c / 32`.
+/// Returns a bit for each byte that is 0: cell `c` is bit `c mod 32` of word `c / 32`. Bits beyond the last byte are 0.
 pub fn zeros(bytes: &[u8]) -> Vec<u32> {
-    let word = |cells: &[u8]| cells.iter().enumerate().fold(0, |word, (bit, &byte)| word | u32::from(byte == 0) << bit);
-    bytes.chunks(32).map(word).collect()
+    let (whole, rest) = bytes.as_chunks::<32>();
+    let eight = |bytes: [u8; 8]| {
+        const TOPS: u64 = 0x8080_8080_8080_8080;
+        let word = u64::from_le_bytes(bytes);
+        // The top bit of each byte that is 0; times the constant, they come together in the highest byte.
+        let zero = !(((word & !TOPS) + !TOPS) | word) & TOPS;
+        ((zero >> 7).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
+    };
+    let word = |bytes: &[u8; 32]| {
+        let (eights, _) = bytes.as_chunks::<8>();
+        eights.iter().enumerate().fold(0, |word, (place, &bytes)| word | eight(bytes) << (8 * place))
+    };
+    let mut words: Vec<u32> = whole.iter().map(word).collect();
+    if !rest.is_empty() {
+        words.push(rest.iter().enumerate().fold(0, |word, (bit, &byte)| word | u32::from(byte == 0) << bit));
+    }
+    words
 }

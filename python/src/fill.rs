@@ -1,147 +1,16 @@
-//! Fills of a plain image: by inpainting, or by a fill mode of the core.
+//! Fills of a plain image by a fill mode of the core.
 
 use fixed::types::I32F32;
-use galpix_core::inpaint::{Inpainting, Metamer, MetamerWorkspace, Motion, Picture, PushPull, Recipe};
 use galpix_core::stages::{self, NO_WINNER};
-use galpix_core::{
-    Class, Colour, Dynamic, Format, Galpixel, Galpixmap, Grid, Margin, Scratch, Settings, SetupError, Tally,
-};
-use galpix_sim::engine::fill::{Fill, Kind};
+use galpix_core::{Class, Dynamic, Format, Galpixel, Galpixmap, Grid, Margin, Scratch, Settings, SetupError, Tally};
+use galpix_sim::engine::fill::Fill;
 use numpy::{PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
-use crate::arrays::{Floats, Numbers, optional, slice, zeros};
+use crate::arrays::{Floats, Numbers, optional, slice};
 use crate::bits::{BudgetWidths, LayoutFields, format};
 use crate::map::{Counts, counts};
 use crate::names::{self, value_error};
-
-/// How an image is inpainted: attributes of an object of the package.
-#[derive(FromPyObject)]
-pub struct Way {
-    method: String,
-    gamma: Option<String>,
-    levels: u32,
-    seed: u32,
-    coloured: bool,
-    bgr: bool,
-}
-
-/// An image, and where it has holes.
-#[derive(FromPyObject)]
-pub struct Holed<'py> {
-    /// Bytes; the result is written here too.
-    image: PyReadwriteArrayDyn<'py, u8>,
-    /// A byte for each pixel: not 0 for a hole.
-    mask: PyReadonlyArrayDyn<'py, u8>,
-    /// 0 the nearest, 1 the farthest.
-    depth: Option<Floats<'py>>,
-}
-
-/// Fills the holes of an image of one or three channels in place; returns how many were filled.
-#[pyfunction]
-pub fn inpaint(py: Python<'_>, holed: Holed<'_>, way: Way) -> PyResult<u32> {
-    let Holed { mut image, mask, depth } = holed;
-    let shape = image.shape().to_vec();
-    let (height, width) = (shape[0], shape[1]);
-    let channels = shape.get(2).copied().unwrap_or(1);
-    let cells = height * width;
-    let depth = optional(depth.as_ref(), cells)?;
-    let mask = slice(&mask, cells)?;
-    let bytes = image.as_slice_mut()?;
-    let size = [width, height].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
-    let Fill::Inpaint(inpaint) = names::fill(&way.method, way.gamma.as_deref())? else {
-        return Err(value_error(format!("`method` is '{}': give push-pull or metamer", way.method)));
-    };
-    let recipe = Recipe { levels: way.levels, seed: way.seed, coloured: way.coloured, ..Recipe::default() };
-    let filled = py.detach(|| {
-        let depths = depth.map(|depth| (0..cells).map(|cell| depth_word(depth.at(cell))).collect::<Vec<u32>>());
-        let inpainting = match &depths {
-            Some(_) => Inpainting::for_depth(Inpainting::DEPTH_BITS, inpaint.gamma),
-            None => Inpainting { gamma: inpaint.gamma, ..Inpainting::classic() },
-        };
-        let order = match (channels, way.bgr) {
-            (1, _) => Order::Gray,
-            (_, false) => Order::Rgb,
-            (_, true) => Order::Bgr,
-        };
-        let mut colours = order.words(bytes);
-        let known = zeros(mask);
-        let mut picture = Picture::new(size[0], size[1], order.colour(), &mut colours, &known)?;
-        if let Some(depths) = &depths {
-            picture = picture.with_depths(depths)?;
-        }
-        let filled = fill(inpaint.kind, &recipe, size, (&mut picture, &inpainting))?;
-        order.put(bytes, &colours, mask);
-        Ok(filled)
-    });
-    filled.map_err(|error: SetupError| value_error(error))
-}
-
-/// Returns a depth in the bits that inpainting keeps.
-fn depth_word(depth: f64) -> u32 {
-    let top = f64::from((1_u32 << Inpainting::DEPTH_BITS) - 1);
-    // `as` saturates; what is not a number is nearest, and a hole has a depth or is told apart by none.
-    (depth * top).round().min(top) as u32
-}
-
-fn fill(
-    kind: Kind,
-    recipe: &Recipe,
-    [width, height]: [u32; 2],
-    (picture, inpainting): (&mut Picture<'_>, &Inpainting<'_>),
-) -> Result<u32, SetupError> {
-    match kind {
-        Kind::PushPull => {
-            let mut memory = vec![0; PushPull::words(width, height, Motion::Kept)];
-            Ok(PushPull::new(width, height, Motion::Kept, &mut memory)?.fill_picture(picture, inpainting))
-        }
-        Kind::Metamer => {
-            let mut memory = vec![0; Metamer::words(width, height, recipe.levels)];
-            let mut workspace = Box::new(MetamerWorkspace::new());
-            Metamer::new(width, height, *recipe, &mut memory, &mut workspace)?.fill_picture(picture, inpainting, &[])
-        }
-    }
-}
-
-/// The order of the channels of a pixel.
-#[derive(Clone, Copy)]
-enum Order {
-    Gray,
-    Rgb,
-    Bgr,
-}
-
-impl Order {
-    const fn colour(self) -> Colour {
-        match self {
-            Self::Gray => Colour::GRAY8,
-            Self::Rgb | Self::Bgr => Colour::RGB888,
-        }
-    }
-
-    /// Returns a colour word for each pixel.
-    fn words(self, bytes: &[u8]) -> Vec<u32> {
-        let triples = || bytes.as_chunks::<3>().0.iter();
-        match self {
-            Self::Gray => bytes.iter().map(|&byte| u32::from(byte)).collect(),
-            Self::Rgb => triples().map(|&[r, g, b]| u32::from_be_bytes([0, r, g, b])).collect(),
-            Self::Bgr => triples().map(|&[b, g, r]| u32::from_be_bytes([0, r, g, b])).collect(),
-        }
-    }
-
-    /// Puts the colours of the holes into an image.
-    fn put(self, bytes: &mut [u8], colours: &[u32], mask: &[u8]) {
-        let holes = mask.iter().enumerate().filter(|&(_, &byte)| byte != 0).map(|(cell, _)| cell);
-        for cell in holes {
-            let [_, r, g, b] = colours[cell].to_be_bytes();
-            match self {
-                Self::Gray => bytes[cell] = b,
-                Self::Rgb => bytes[3 * cell..][..3].copy_from_slice(&[r, g, b]),
-                Self::Bgr => bytes[3 * cell..][..3].copy_from_slice(&[b, g, r]),
-            }
-        }
-    }
-}
 
 /// The frame before, and what of it arrived: attributes of an object of the package.
 #[derive(FromPyObject)]

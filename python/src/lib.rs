@@ -8,6 +8,7 @@ mod bits;
 mod ddoc;
 mod engine;
 mod fill;
+mod inpaint;
 mod map;
 mod metric;
 mod names;
@@ -24,7 +25,9 @@ mod _galpix {
     #[pymodule_export]
     use super::engine::extrapolate;
     #[pymodule_export]
-    use super::fill::{fill_mode, inpaint};
+    use super::fill::fill_mode;
+    #[pymodule_export]
+    use super::inpaint::inpaint;
     #[pymodule_export]
     use super::map::Map;
     #[pymodule_export]

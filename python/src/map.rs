@@ -245,6 +245,12 @@ impl Map {
         Ok(made.map_err(value_error)?[0])
     }
 
+    /// Makes frames that are not shown; returns their counts.
+    fn skip(&mut self, py: Python<'_>, frames: usize) -> PyResult<Vec<Counts>> {
+        let made = py.detach(|| self.steps(frames, |_, _| ()));
+        made.map_err(value_error)
+    }
+
     /// Makes as many frames as fit into `out`, and writes what the display shows of each; returns their counts.
     fn run(&mut self, py: Python<'_>, mut out: PyReadwriteArrayDyn<'_, u8>) -> PyResult<Vec<Counts>> {
         let bytes = out.as_slice_mut()?;

@@ -34,7 +34,10 @@ def test_every_public_name_is_documented():
 
 def test_the_stubs_name_what_the_extension_module_has():
     stubs = (Path(galpix.__file__).parent / "_galpix.pyi").read_text()
-    missing = [name for name in dir(galpix._galpix) if not name.startswith("_") and f" {name}(" not in stubs
-               and f"class {name}:" not in stubs]
+    missing = [
+        name
+        for name in dir(galpix._galpix)
+        if not name.startswith("_") and f" {name}(" not in stubs and f"class {name}:" not in stubs
+    ]
     assert not missing
     assert (Path(galpix.__file__).parent / "py.typed").exists()

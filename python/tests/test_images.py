@@ -8,7 +8,9 @@ import galpix
 
 def texture(rows=48, columns=64):
     y, x = np.mgrid[:rows, :columns]
-    return np.stack([128 + 100 * np.sin(x / 5), 128 + 100 * np.cos(y / 7), x + y], axis=-1).clip(0, 255).astype(np.uint8)
+    return (
+        np.stack([128 + 100 * np.sin(x / 5), 128 + 100 * np.cos(y / 7), x + y], axis=-1).clip(0, 255).astype(np.uint8)
+    )
 
 
 def holes(shape, share=0.04, seed=1):

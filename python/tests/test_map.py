@@ -56,9 +56,7 @@ def test_galpixels_come_back():
     tag = rng.integers(0, 256, shape, np.uint8)
     known = rng.random(shape) < 0.9
     velocity[0, 0, 0] = np.nan
-    loaded = map.load(
-        colour, depth=depth, velocity=velocity, acceleration=acceleration, tag=tag, known=known
-    )
+    loaded = map.load(colour, depth=depth, velocity=velocity, acceleration=acceleration, tag=tag, known=known)
     galpixels = map.galpixels()
     known[0, 0] = False
     assert loaded == (known.sum(), (~known).sum(), 0)
@@ -137,7 +135,9 @@ def test_certificates():
     assert (proof.quantisation + proof.drift).max() == proof.total_px == 0.84375
     assert proof.keeps_one_pixel and proof.method == "enumerated" and proof.drift.shape == (16,)
     assert [galpix.certificate(budget, name).total_px for name in ("searched", "nearest", "truncate")] == [
-        0.59375, 1.09375, 1.46875
+        0.59375,
+        1.09375,
+        1.46875,
     ]
     small, proof = galpix.smallest_budget(0.5, extent=320, acceleration=False)
     assert proof.total_px <= 0.5 and galpix.certificate(small).total_px == proof.total_px

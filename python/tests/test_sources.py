@@ -79,4 +79,3 @@ def test_all_scenes_open():
     assert len(galpix.scenes()) >= 10
     for name, about in galpix.scenes().items():
         assert galpix.open(name).name == name and about
-

@@ -60,9 +60,12 @@ def test_two_workers_of_which_one_is_killed(alone, tmp_path):
     """The result is that of one process bit by bit, and a lost worker costs its task only."""
     distributed = pytest.importorskip("distributed", reason="dask is not installed: sweeps on workers are not tested")
     environment = {"RAYON_NUM_THREADS": "1", "PYTHONUNBUFFERED": "1"}
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, env=environment, silence_logs=50
-    ) as cluster, distributed.Client(cluster) as client:
+    with (
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None, env=environment, silence_logs=50
+        ) as cluster,
+        distributed.Client(cluster) as client,
+    ):
         pids = client.run(os.getpid)
         assert len(pids) == 2
         killed = []

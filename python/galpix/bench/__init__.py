@@ -1,8 +1,8 @@
-"""A benchmark of frame extrapolation that anyone can run again: one update in, later frames out, held against the truth.
+"""A benchmark of frame extrapolation that anyone can run again: one update in, later frames out, held against truth.
 
     python -m galpix.bench --out results.jsonl --page bench.html
 
-An entry is a function of the update and of the numbers of the frames that are wanted: it never sees a pixel of the truth.
+An entry is a function of the update and of the numbers of the frames that are wanted: it sees no pixel of the truth.
 The suite is frozen: `SUITE` names its version, and `suite-1.json` has a hash of every picture of its scenes, so that a
 figure of today can stand beside one of next year.
 """

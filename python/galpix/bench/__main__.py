@@ -20,13 +20,23 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Score entries in the scenes of the suite; print a table; append a line for each entry, scene and frame."""
     parser = argparse.ArgumentParser(prog="python -m galpix.bench", description=main.__doc__)
     parser.add_argument("--out", type=Path, help="a file of results, which is appended to")
-    parser.add_argument("--entry", action="append", default=[], help="a name, NAME=FOLDER of PNG files as "
-                        "SCENE/0001.png, or NAME=MODULE:FUNCTION of the update and the frames [default: all names]")
+    parser.add_argument(
+        "--entry",
+        action="append",
+        default=[],
+        help="a name, NAME=FOLDER of PNG files as "
+        "SCENE/0001.png, or NAME=MODULE:FUNCTION of the update and the frames [default: all names]",
+    )
     parser.add_argument("--scene", action="append", default=[], choices=SCENES, help="[default: all]")
     parser.add_argument("--captures", action="append", type=Path, default=[], help="a folder of captures, too")
     parser.add_argument("--no-scenes", action="store_true", help="captures alone")
-    parser.add_argument("--shard", type=shard, default=(1, 1), metavar="K/N",
-                        help="the K-th of N parts of all pairs of a scene and an entry")
+    parser.add_argument(
+        "--shard",
+        type=shard,
+        default=(1, 1),
+        metavar="K/N",
+        help="the K-th of N parts of all pairs of a scene and an entry",
+    )
     parser.add_argument("--read", action="append", type=Path, default=[], help="show these results; run nothing")
     parser.add_argument("--measure", default="psnr_db", choices=SCORES, help="what the table shows")
     parser.add_argument("--page", type=Path, help="write a page")

@@ -59,7 +59,9 @@ def read(files: Iterable[Path]) -> list[Row]:
     return list(last.values())
 
 
-def _means(rows: Sequence[Row], measure: str) -> tuple[list[str], dict[tuple[str, int], tuple[float, float, float, int]]]:
+def _means(
+    rows: Sequence[Row], measure: str
+) -> tuple[list[str], dict[tuple[str, int], tuple[float, float, float, int]]]:
     """Return the entries, the best first at 4 frames, and mean, least, largest and number of scenes by entry and
     frame. A mean is over the scenes that every entry has at that frame."""
     entries = list(dict.fromkeys(row["entry"] for row in rows))
@@ -93,9 +95,13 @@ def table(rows: Sequence[Row], measure: str = "psnr_db") -> str:
         cells = []
         for frame in FRAMES:
             mean = means.get((entry, frame))
-            cells.append("" if mean is None else f"{mean[0]:.{digits}f} ({mean[1]:.{digits}f} to {mean[2]:.{digits}f})")
+            cells.append(
+                "" if mean is None else f"{mean[0]:.{digits}f} ({mean[1]:.{digits}f} to {mean[2]:.{digits}f})"
+            )
         lines.append(f"| {entry} | " + " | ".join(cells) + " |")
-    counts = [means[entries[0], frame][3] if (entries[0], frame) in means else 0 for frame in FRAMES] if entries else []
+    counts = (
+        [means[entries[0], frame][3] if (entries[0], frame) in means else 0 for frame in FRAMES] if entries else []
+    )
     lines.append("| *scenes* | " + " | ".join(str(count) for count in counts) + " |")
     return "\n".join(lines)
 
@@ -148,15 +154,21 @@ polyline { fill: none; stroke: #888; stroke-width: 1.5 } polyline.galpix { strok
 """
 
 
-def write_page(rows: Sequence[Row], path: Path, measures: Sequence[str] = ("psnr_db", "flip", "wrong_percent")) -> None:
+def write_page(
+    rows: Sequence[Row], path: Path, measures: Sequence[str] = ("psnr_db", "flip", "wrong_percent")
+) -> None:
     """Write a page of its own: for each group of scenes a plot and a table of each measure."""
     parts = [f"<!doctype html><html lang=en><meta charset=utf-8><title>{SUITE}</title><style>{_STYLE}</style>"]
-    parts.append(f"<h1>{SUITE}</h1><p>Means over the scenes that all entries have, and their range, by frames ahead of the")
+    parts.append(
+        f"<h1>{SUITE}</h1><p>Means over the scenes that all entries have, and their range, by frames ahead of the"
+    )
     parts.append(" update. Lines of galpix are coloured; each line says its name.</p>")
     for name, group in _groups(rows):
         parts.append(f"<h2>{html.escape(name)}</h2>")
         for measure in measures:
-            parts.append(f"<h3>{html.escape(SCORES[measure])}</h3>{_plot(group, measure)}{_html_table(group, measure)}")
+            parts.append(
+                f"<h3>{html.escape(SCORES[measure])}</h3>{_plot(group, measure)}{_html_table(group, measure)}"
+            )
     Path(path).write_text("".join(parts) + "</html>\n")
 
 
@@ -166,11 +178,18 @@ def parquet(rows: Sequence[Row], path: Path) -> None:
         import pyarrow
         import pyarrow.parquet
     except ImportError as error:
-        raise ImportError("Parquet is written by pyarrow, which is not installed: pip install 'galpix[sweep]'") from error
+        raise ImportError(
+            "Parquet is written by pyarrow, which is not installed: pip install 'galpix[sweep]'"
+        ) from error
     texts, whole = ("suite", "entry", "version", "scene", "scene_sha256"), ("frame",)
     kind = lambda name: (  # noqa: E731
-        pyarrow.string() if name in texts else pyarrow.int64() if name in whole
-        else pyarrow.bool_() if name == "second_order" else pyarrow.float64()
+        pyarrow.string()
+        if name in texts
+        else pyarrow.int64()
+        if name in whole
+        else pyarrow.bool_()
+        if name == "second_order"
+        else pyarrow.float64()
     )
     names = list(rows[0]) if rows else []
     schema = pyarrow.schema([(name, kind(name)) for name in names])
