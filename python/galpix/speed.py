@@ -44,10 +44,10 @@ def tiled(tile: np.ndarray, side: int) -> np.ndarray:
 
 
 def image(frame: int) -> np.ndarray:
-    """Return the true picture of a frame of the scene `fovea`: uint8, shape (144, 192, 3).
+    """Return the true picture of a frame of the scene `fovea`: uint8, shape (192, 256, 3).
 
     >>> image(1).shape
-    (144, 192, 3)
+    (192, 256, 3)
     """
     return open_source("fovea").truth(frame).picture
 
@@ -57,7 +57,7 @@ def strips(side: int, share: float, seed: int = 0) -> np.ndarray:
 
     uint8, shape (side, side), 255 in a hole; at least `share` of all pixels.
 
-    >>> strips(64, 0.05).mean() / 255 >= 0.05
+    >>> bool(strips(64, 0.05).mean() / 255 >= 0.05)
     True
     """
     rng = np.random.default_rng(seed)
@@ -75,9 +75,9 @@ def strips(side: int, share: float, seed: int = 0) -> np.ndarray:
 def warped(frame: int) -> np.ndarray:
     """Return what a forward warp of the scene `fovea` leaves open after some frames: cracks and uncovered areas.
 
-    uint8, shape (144, 192), 255 in a hole.
+    uint8, shape (192, 256), 255 in a hole.
 
-    >>> 0.02 < warped(1).mean() / 255 < warped(2).mean() / 255 < 0.06
+    >>> bool(0.02 < warped(1).mean() / 255 < warped(2).mean() / 255 < 0.06)
     True
     """
     made = open_source("fovea").run(frames=frame, scheme="map", fill="none")

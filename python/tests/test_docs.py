@@ -9,19 +9,30 @@ from pathlib import Path
 import pytest
 
 import galpix
+from conftest import PROJECT
 
-MODULES = [module.name for module in pkgutil.iter_modules(galpix.__path__) if not module.name.startswith("_")]
+MODULES = [
+    module.name
+    for module in pkgutil.walk_packages(galpix.__path__, "galpix.")
+    if not module.name.rsplit(".")[-1].startswith("_")
+]
 
 
-@pytest.mark.parametrize("name", ["__init__", *MODULES])
+@pytest.mark.parametrize("name", ["galpix", *MODULES])
 def test_examples(name):
-    module = galpix if name == "__init__" else importlib.import_module(f"galpix.{name}")
-    assert doctest.testmod(module).failed == 0
+    assert doctest.testmod(importlib.import_module(name)).failed == 0
 
 
-def test_readme():
-    result = doctest.testfile(str(Path(__file__).parents[1] / "README.md"), module_relative=False)
-    assert result.failed == 0 and result.attempted > 5
+def test_all_modules_are_looked_at():
+    assert {"galpix.budget", "galpix.map", "galpix.bench.suite", "galpix.speed"} <= set(MODULES)
+
+
+@pytest.mark.parametrize("path", ["python/README.md", "docs/sweeps.md", "docs/benchmark.md"])
+def test_texts(path):
+    if "sweeps" in path:
+        pytest.importorskip("pyarrow", reason="pyarrow is not installed: the examples of docs/sweeps.md are not run")
+    result = doctest.testfile(str(PROJECT / path), module_relative=False)
+    assert result.failed == 0 and result.attempted > 3
 
 
 def test_every_public_name_is_documented():
