@@ -25,9 +25,16 @@ tools="$target/python-tools"
 [ -x "$tools/bin/pip" ] || python3 -m venv "$tools"
 pip() { "$tools/bin/pip" --disable-pip-version-check --quiet "$@"; }
 pip install 'maturin>=1.9,<2' numpy pytest || { skip "maturin, numpy and pytest cannot be had from the package registry"; exit 3; }
-further="dask[distributed] pyarrow duckdb pillow"
+further="dask[distributed] pyarrow duckdb pillow opencv-python-headless matplotlib nbclient ipykernel ruff mypy"
 # shellcheck disable=SC2086 # One word each.
-pip install $further || skip "$further cannot be had from the package registry: sweeps are not tested"
+pip install $further || skip "$further cannot be had from the package registry: what needs them is not tested"
+
+if [ -x "$tools/bin/ruff" ] && [ -x "$tools/bin/mypy" ]; then
+    say "format, lints and types"
+    "$tools/bin/ruff" format --no-cache --check --quiet python
+    "$tools/bin/ruff" check --no-cache --quiet python
+    "$tools/bin/mypy" --cache-dir "$work/mypy" --ignore-missing-imports python/galpix
+fi
 
 say "wheel and sdist"
 "$tools/bin/maturin" build --quiet --locked --manifest-path python/Cargo.toml --out "$work/dist"

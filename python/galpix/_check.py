@@ -59,6 +59,21 @@ def floats(value: Any, name: str, shape: Sequence[int]) -> Optional[np.ndarray]:
     return np.ascontiguousarray(shaped(value, name, shape, "the picture")).reshape(-1)
 
 
+def given_floats(value: Any, name: str, shape: Sequence[int]) -> np.ndarray:
+    """Return an array as `floats` does; None is no array."""
+    flat = floats(array(value, name), name, shape)
+    assert flat is not None
+    return flat
+
+
+def margin(value: Any) -> tuple[int, int, int, int]:
+    """Return columns left and right of the display, rows above and below it."""
+    cells = tuple(whole(number, "margin", 0, 32768) for number in value)
+    if len(cells) != 4:
+        raise ValueError(f"`margin` has {len(cells)} numbers: give left, right, above and below")
+    return cells
+
+
 def vectors(value: Any, name: str, shape: Sequence[int]) -> tuple[Optional[np.ndarray], int]:
     """Return an array of shape (*shape, 2) or (*shape, 3) as `floats` does, and its last side."""
     if value is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Optional
+from typing import ClassVar, NamedTuple, Optional
 
 import numpy as np
 
@@ -59,14 +59,23 @@ class Layout:
     tag_bits: int = 0
     """Bits of the object tag; 0 leaves it out."""
 
+    STILL: ClassVar[Layout]
+    """Colour only: a picture that does not move."""
+    FULL: ClassVar[Layout]
+    """The paper's galpixel: x, y, z with velocity and acceleration, rgb888, 16-bit z."""
+    TAGGED: ClassVar[Layout]
+    """The paper's galpixel with an object tag of 8 bits."""
+    VELOCITY565: ClassVar[Layout]
+    """x and y with velocity only, rgb565, 16-bit z that does not move."""
+    VELOCITY_GRAY8: ClassVar[Layout]
+    """x and y with velocity only, gray8, 8-bit z that does not move."""
 
-Layout.STILL = Layout()  # type: ignore[attr-defined]
-Layout.FULL = Layout(depth_bits=16, velocity=True, acceleration=True, depth_motion=True)  # type: ignore[attr-defined]
-Layout.TAGGED = Layout(  # type: ignore[attr-defined]
-    depth_bits=16, velocity=True, acceleration=True, depth_motion=True, tag_bits=8
-)
-Layout.VELOCITY565 = Layout(colour="rgb565", depth_bits=16, velocity=True)  # type: ignore[attr-defined]
-Layout.VELOCITY_GRAY8 = Layout(colour="gray8", depth_bits=8, velocity=True)  # type: ignore[attr-defined]
+
+Layout.STILL = Layout()
+Layout.FULL = Layout(depth_bits=16, velocity=True, acceleration=True, depth_motion=True)
+Layout.TAGGED = Layout(depth_bits=16, velocity=True, acceleration=True, depth_motion=True, tag_bits=8)
+Layout.VELOCITY565 = Layout(colour="rgb565", depth_bits=16, velocity=True)
+Layout.VELOCITY_GRAY8 = Layout(colour="gray8", depth_bits=8, velocity=True)
 
 
 @dataclass(frozen=True)
@@ -115,12 +124,11 @@ class Budget:
         ValueError
             If no such budget exists; the sentence says what to change.
         """
-        numbers = [
-            whole(value, name, 0, _MOST) for value, name in ((extent, "extent"), (recog, "recog"), (prop, "prop"))
-        ]
-        widths, depth_int, luminosity_int, luminosity_frac = _galpix.derive(*numbers, bool(acceleration))
+        extent, recog = whole(extent, "extent", 0, _MOST), whole(recog, "recog", 0, _MOST)
+        prop = whole(prop, "prop", 0, _MOST)
+        widths, depth_int, luminosity_int, luminosity_frac = _galpix.derive(extent, recog, prop, bool(acceleration))
         component = Component(*widths)
-        return cls(component, component, component, depth_int, luminosity_int, luminosity_frac, numbers[2])
+        return cls(component, component, component, depth_int, luminosity_int, luminosity_frac, prop)
 
     def words(self, layout: Layout) -> int:
         """Return the 32-bit words of a galpixel of a layout."""
@@ -223,7 +231,7 @@ def smallest_budget(
     if not max_error > 0:
         raise ValueError(f"`max_error` is {max_error}: give a positive number of pixels")
     derived = Budget.derive(extent, recog, prop, acceleration=acceleration)
-    widths, proof = _galpix.smallest(derived.x, rounding, derived.prop, float(max_error))
+    widths, proof = _galpix.smallest(derived.x, rounding, prop, float(max_error))
     component = Component(*widths)
     budget = Budget(
         component,

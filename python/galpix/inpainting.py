@@ -181,4 +181,4 @@ def fill(
         velocity=motion,
     )
     tally = Tally(*_galpix.fill_mode(arrived))
-    return Filled(filled, motion.reshape(*shape, 2) if moves else None, tally)
+    return Filled(filled, None if motion is None else motion.reshape(*shape, 2), tally)

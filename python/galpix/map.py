@@ -65,7 +65,7 @@ class Disocclusion:
     @property
     def needed(self) -> np.ndarray:
         """bool, shape (rows, columns): where a hidden sample may be uncovered."""
-        return self.extents.any(axis=2)
+        return np.asarray(self.extents.any(axis=2))
 
 
 def update_arrays(
@@ -149,7 +149,7 @@ class Galpixmap:
         self,
         shape: tuple[int, int],
         budget: Optional[Budget] = None,
-        layout: Layout = Layout.FULL,  # type: ignore[attr-defined]
+        layout: Layout = Layout.FULL,
         *,
         margin: tuple[int, int, int, int] = (0, 0, 0, 0),
         fill: str = "extend",
@@ -161,9 +161,7 @@ class Galpixmap:
         constant_time: bool = False,
     ) -> None:
         rows, columns = (_check.whole(side, "shape", 1, 32768) for side in shape)
-        margin = tuple(_check.whole(cells, "margin", 0, 32768) for cells in margin)
-        if len(margin) != 4:
-            raise ValueError(f"`margin` has {len(margin)} numbers: give left, right, above and below")
+        left, right, top, bottom = margin = _check.margin(margin)
         if budget is None:
             extent = 1 << (max(rows, columns) - 1).bit_length()
             budget = Budget.derive(max(extent, 16), acceleration=layout.acceleration)
@@ -181,7 +179,6 @@ class Galpixmap:
         self.layout = layout
         self.shape = (rows, columns)
         self.margin = margin
-        left, right, top, bottom = margin
         self.cells = (rows + top + bottom, columns + left + right)
         """Rows and columns of the map, margin included."""
 

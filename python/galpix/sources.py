@@ -206,7 +206,7 @@ def extrapolate(
     margin: tuple[int, int, int, int] = (0, 0, 0, 0),
     depth_kind: str = "z",
     budget: Optional[Budget] = None,
-    layout: Layout = Layout.FULL,  # type: ignore[attr-defined]
+    layout: Layout = Layout.FULL,
     **options: Any,
 ) -> Extrapolated:
     """Keep a picture moving, by stationary sources with push-pull unless told otherwise.
@@ -238,7 +238,7 @@ def extrapolate(
     arrays = update_arrays(colour, depth, velocity, acceleration, rest)
     wanted = _wanted({**options, "frames": frames})
     form = None if budget is None else (budget, layout)
-    made, reached, counts = _galpix.extrapolate(arrays, tuple(margin), depth_kind, (wanted, form))
+    made, reached, counts = _galpix.extrapolate(arrays, _check.margin(margin), depth_kind, (wanted, form))
     return Extrapolated(made, reached, [Tally(*count) for count in counts])
 
 
@@ -298,7 +298,7 @@ def ddoc(
         window=_check.whole(window, "window", 1, 15),
         threshold=threshold,
     )
-    displacement, counts = _galpix.distortion(_check.floats(depth, "depth", depth.shape), depth.shape, camera)
+    displacement, counts = _galpix.distortion(_check.given_floats(depth, "depth", depth.shape), depth.shape, camera)
     return Distortion(displacement, *counts)
 
 

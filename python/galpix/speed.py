@@ -49,7 +49,9 @@ def image(frame: int) -> np.ndarray:
     >>> image(1).shape
     (192, 256, 3)
     """
-    return open_source("fovea").truth(frame).picture
+    truth = open_source("fovea").truth(frame)
+    assert truth is not None
+    return truth.picture
 
 
 def strips(side: int, share: float, seed: int = 0) -> np.ndarray:
@@ -64,9 +66,9 @@ def strips(side: int, share: float, seed: int = 0) -> np.ndarray:
     mask = np.zeros((side, side), np.uint8)
     missing = int(np.ceil(share * side * side))
     while np.count_nonzero(mask) < missing:
-        for _ in range(max(1, (missing - np.count_nonzero(mask)) // 120)):
+        for _ in range(max(1, (missing - int(np.count_nonzero(mask))) // 120)):
             thin, long = rng.integers(1, 7), rng.integers(4, 41)
-            height, width = (long, thin) if rng.random() < 0.5 else (thin, long)
+            height, width = (int(long), int(thin)) if rng.random() < 0.5 else (int(thin), int(long))
             y, x = rng.integers(0, side, 2)
             mask[y : y + height, x : x + width] = 255
     return mask
@@ -90,17 +92,19 @@ def cases(side: int) -> list[tuple[str, np.ndarray, np.ndarray]]:
     return made + [("warp", tiled(image(frame), side), tiled(warped(frame), side)) for frame in (1, 2)]
 
 
-def race(contenders: dict[str, Callable[[], Any]], rounds: int) -> dict[str, list[float]]:
-    """Return the seconds of each contender in each round; they take turns, after a round that does not count."""
+def race(contenders: dict[str, Callable[[], Any]], rounds: int) -> tuple[dict[str, list[float]], dict[str, Any]]:
+    """Return the seconds of each contender in each round, and what it returned. They take turns, after a round that
+    does not count."""
     seconds: dict[str, list[float]] = {name: [] for name in contenders}
+    returned: dict[str, Any] = {}
     for number in range(rounds + 1):
         for name, call in contenders.items():
             started = time.thread_time()
-            call()
+            returned[name] = call()
             took = time.thread_time() - started
             if number:
                 seconds[name].append(took)
-    return seconds
+    return seconds, returned
 
 
 def _ratio(slow: list[float], fast: list[float]) -> tuple[float, float, float]:
@@ -116,38 +120,30 @@ def inpainting(cv2: Any, sizes: Sequence[int], rounds: int) -> list[str]:
         "| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |",
     ]
     for side in sizes:
-        for kind, picture, mask in cases(side):
-            given = picture.copy()
-            given[mask > 0] = 0
-            made: dict[str, np.ndarray] = {}
-
-            def keep(
-                name: str, call: Callable[[], np.ndarray], made: dict[str, np.ndarray] = made
-            ) -> Callable[[], None]:
-                def run() -> None:
-                    made[name] = call()
-
-                return run
-
-            contenders = {
-                "galpix": keep("galpix", lambda given=given, mask=mask: inpaint(given, mask)),
-                "Navier-Stokes": keep(
-                    "Navier-Stokes", lambda given=given, mask=mask: cv2.inpaint(given, mask, 3, cv2.INPAINT_NS)
-                ),
-                "Telea": keep("Telea", lambda given=given, mask=mask: cv2.inpaint(given, mask, 3, cv2.INPAINT_TELEA)),
-            }
-            seconds = race(contenders, rounds)
-            decibels = {name: psnr(result, picture, mask > 0) for name, result in made.items()}
-            ratios = {name: _ratio(seconds[name], seconds["galpix"]) for name in RATIOS}
-            short = [name for name, goal in RATIOS.items() if ratios[name][0] < goal]
-            short += ["PSNR"] if decibels["galpix"] < max(decibels.values()) - LOSS_DB else []
-            cells = [f"{side}", f"{kind}, {100 * np.count_nonzero(mask) / mask.size:.1f} %"]
-            cells.append(f"{1e3 * statistics.median(seconds['galpix']):.2f}")
-            cells += [f"{middle:.1f} ({low:.1f} to {high:.1f})" for middle, low, high in ratios.values()]
-            cells += [f"{decibels[name]:.2f}" for name in ("galpix", "Navier-Stokes", "Telea")]
-            cells.append(f"not {', '.join(short)}" if short else "all")
-            lines.append("| " + " | ".join(cells) + " |")
+        lines += [_row(cv2, side, case, rounds) for case in cases(side)]
     return lines
+
+
+def _row(cv2: Any, side: int, case: tuple[str, np.ndarray, np.ndarray], rounds: int) -> str:
+    kind, picture, mask = case
+    given = picture.copy()
+    given[mask > 0] = 0
+    contenders: dict[str, Callable[[], np.ndarray]] = {
+        "galpix": lambda: inpaint(given, mask),
+        "Navier-Stokes": lambda: cv2.inpaint(given, mask, 3, cv2.INPAINT_NS),
+        "Telea": lambda: cv2.inpaint(given, mask, 3, cv2.INPAINT_TELEA),
+    }
+    seconds, made = race(contenders, rounds)
+    decibels = {name: psnr(result, picture, mask > 0) for name, result in made.items()}
+    ratios = {name: _ratio(seconds[name], seconds["galpix"]) for name in RATIOS}
+    short = [name for name, goal in RATIOS.items() if ratios[name][0] < goal]
+    short += ["PSNR"] if decibels["galpix"] < max(decibels.values()) - LOSS_DB else []
+    cells = [f"{side}", f"{kind}, {100 * np.count_nonzero(mask) / mask.size:.1f} %"]
+    cells.append(f"{1e3 * statistics.median(seconds['galpix']):.2f}")
+    cells += [f"{middle:.1f} ({low:.1f} to {high:.1f})" for middle, low, high in ratios.values()]
+    cells += [f"{decibels[name]:.2f}" for name in contenders]
+    cells.append(f"not {', '.join(short)}" if short else "all")
+    return "| " + " | ".join(cells) + " |"
 
 
 def _moving(side: int) -> Galpixmap:

@@ -24,7 +24,8 @@ def rows_of(case: Case, entries: Sequence[tuple[str, Entry]]) -> Iterator[Row]:
     wanted = sorted({frame for scored in frames for frame in (scored - 1, scored) if frame > 0})
     parts = classes(case, frames)
     digest = case.digest()
-    truths = {frame: case.truth(frame) for frame in {0, *wanted}}
+    seen = set(case.source.truth_frames(max(frames)))
+    truths = {frame: case.truth(frame) for frame in (0, *wanted) if frame == 0 or frame in seen}
     for name, entry in entries:
         made = dict(entry(case, wanted))
         made[0] = truths[0].picture
@@ -37,7 +38,7 @@ def rows_of(case: Case, entries: Sequence[tuple[str, Entry]]) -> Iterator[Row]:
                     f"entry `{name}` made {shown.dtype} of shape {shown.shape} of scene `{case.name}`: give uint8 of "
                     f"shape {truth.picture.shape}"
                 )
-            known = frame - 1 in made and truths.get(frame - 1) is not None
+            known = frame - 1 in made and frame - 1 in truths
             before = (np.asarray(made[frame - 1]), truths[frame - 1].picture) if known else None
             row: Row = {"suite": SUITE, "entry": name, "version": _galpix.__version__, "scene": case.name}
             row.update({"scene_sha256": digest, "second_order": case.second_order, "frame": frame})

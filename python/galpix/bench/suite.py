@@ -49,14 +49,20 @@ class Case:
         known = set(self.source.truth_frames(max(FRAMES)))
         return [frame for frame in FRAMES if frame in known]
 
-    def truth(self, frame: int) -> Optional[Truth]:
-        """Return a true picture; frame 0 is the update's."""
+    def truth(self, frame: int) -> Truth:
+        """Return a true picture, of one of `frames` or of the frame before; frame 0 is the update's.
+
+        Raises ValueError where it is not known.
+        """
         if frame == 0:
             update = self.update()
             left, right, top, bottom = update.margin
             rows, columns = update.depth.shape
             return Truth(np.ascontiguousarray(update.colour[top : rows - bottom, left : columns - right]), None)
-        return self.source.truth(frame)
+        truth = self.source.truth(frame)
+        if truth is None:
+            raise ValueError(f"the true picture of frame {frame} of `{self.name}` is not known")
+        return truth
 
     def digest(self) -> str:
         """Return a hash of the update's colours and of all true pictures that are scored."""
