@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks the Python package: builds wheel and sdist, runs ten lines on the wheel in an empty virtual environment, installs
-# from the sdist, and runs the tests on the installed wheel. Everything it installs is under target/python.
+# Checks the Python package: formats, lints and types; wheel and sdist; ten lines on the wheel in an empty virtual
+# environment; the tests on the installed wheel. Everything that it installs is in the target folder.
 #
 #   python/test.sh           all of it
 #   python/test.sh sdist     the same, and a build from the sdist, which takes as long as a first build

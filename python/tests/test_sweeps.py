@@ -68,12 +68,13 @@ def test_two_workers_of_which_one_is_killed(alone, tmp_path):
     ):
         pids = client.run(os.getpid)
         assert len(pids) == 2
-        killed = []
+        killed, done = [], {}
 
         def kill():
             while len(list(tmp_path.glob("*.parquet"))) < 30:
                 time.sleep(0.005)
-            killed.append(len(list(tmp_path.glob("*.parquet"))))
+            done.update({file: file.stat().st_mtime_ns for file in tmp_path.glob("*.parquet")})
+            killed.append(len(done))
             os.kill(list(pids.values())[0], signal.SIGKILL)
 
         killer = threading.Thread(target=kill)
@@ -81,6 +82,8 @@ def test_two_workers_of_which_one_is_killed(alone, tmp_path):
         files = galpix.sweep(CAPTURES, BUDGETS, tmp_path, client=client)
         killer.join()
         assert 30 <= killed[0] < 120, "the worker was killed after the sweep"
+    # What was there when the worker was lost was not done again.
+    assert {file: file.stat().st_mtime_ns for file in done} == done
     assert sorted(files) == sorted(str(file) for file in tmp_path.glob("*.parquet")) and len(files) == 120
     assert sweeps.equal_but_for_times(sweeps.read(tmp_path), sweeps.read(alone))
 
