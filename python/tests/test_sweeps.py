@@ -13,7 +13,8 @@ from conftest import PROJECT
 
 pytest.importorskip("pyarrow", reason="pyarrow is not installed: sweeps are not tested")
 
-from galpix import sweeps  # noqa: E402
+from galpix import sweeps
+from galpix.sweeps import __main__ as program  # noqa: E402
 
 DATA = PROJECT.parent / "shared/data"
 REAL = [DATA / "blender/ball", DATA / "middlebury_stereo/teddy"]
@@ -52,7 +53,7 @@ def test_shards_are_the_whole(alone, tmp_path):
     (tmp_path / "budgets.json").write_text(json.dumps(budgets))
     arguments = ["drift", "--budgets", str(tmp_path / "budgets.json"), "--out", str(tmp_path / "line"), "--shard"]
     for k in (1, 2, 3):
-        assert sweeps.main([*arguments, f"{k}/3"]) == 0
+        assert program.main([*arguments, f"{k}/3"]) == 0
     assert sweeps.equal_but_for_times(sweeps.read(tmp_path), sweeps.read(tmp_path / "line"))
 
 
@@ -126,3 +127,20 @@ def test_an_identity_is_of_content_and_budget(tmp_path):
     assert sweeps.file_name(folder, {"recog": 4}) != first
     (folder / "capture.toml").write_text("two")
     assert sweeps.file_name(folder, {"recog": 8}) != first
+
+
+def test_points_of_galpix_error(tmp_path):
+    """`points.json` is what `galpix error crossing --quick --frames 2 … --shard 3/3 --json` printed."""
+    import pyarrow.parquet
+
+    given = PROJECT / "python/tests/points.json"
+    assert program.main(["--points", str(given), str(given), "--out", str(tmp_path / "points.parquet")]) == 0
+    table = pyarrow.parquet.read_table(tmp_path / "points.parquet")
+    points = json.loads(given.read_text())["sources"][0]["points"]
+    assert table.num_rows == 2 * sum(len(point["frames"]) for point in points)
+    row = table.to_pylist()[0]
+    assert (row["id"], row["lanes"], row["rung"]) == (points[0]["id"], points[0]["lanes"], points[0]["rung"])
+    assert row["position_frac"] == points[0]["bits"][0]
+    assert row["picture_psnr_db"] == points[0]["frames"][0]["picture"]["psnr_db"]
+    with pytest.raises(ValueError, match="the document has no point"):
+        sweeps.points({"sources": []})

@@ -10,12 +10,10 @@ does every sixteenth task, for an array of jobs. `sweep` does the same on Dask, 
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import itertools
 import json
 import os
-import sys
 import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -23,8 +21,8 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _galpix
-from .sources import open as open_source
+from .. import _galpix
+from ..sources import open as open_source
 
 SCHEMA = 1
 """The version of the columns and of the names of the files."""
@@ -140,7 +138,7 @@ def _table(made: list[dict[str, Any]]) -> Any:
     return pa.Table.from_pylist(made, schema=pa.schema(kinds))
 
 
-def _write(table: Any, path: Path) -> None:
+def write(table: Any, path: Path) -> None:
     """Write a table as a Parquet file, whole or not at all."""
     pa = _pyarrow()
     # What a killed process leaves is no Parquet file by its name.
@@ -162,7 +160,7 @@ def task(capture: Capture, budget: Budget, folder: Union[str, os.PathLike], dige
     path = Path(folder) / file_name(capture, budget, digest)
     if not path.exists():
         path.parent.mkdir(parents=True, exist_ok=True)
-        _write(_table(rows(capture, budget)), path)
+        write(_table(rows(capture, budget)), path)
     return str(path)
 
 
@@ -299,32 +297,3 @@ def _flat(value: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
         elif not isinstance(item, list):
             flat[prefix + name] = item
     return flat
-
-
-def main(arguments: Optional[Sequence[str]] = None) -> int:
-    """Do the tasks of a shard in this process; or turn documents of `galpix error --json` into Parquet."""
-    parser = argparse.ArgumentParser(prog="python -m galpix.sweeps", description=main.__doc__)
-    parser.add_argument("captures", nargs="+", help="scenes or captures; with --points, documents")
-    parser.add_argument("--budgets", type=Path, help="a JSON file: a list of objects of options of Source.report")
-    parser.add_argument("--out", type=Path, required=True, help="the folder; with --points, the Parquet file")
-    parser.add_argument("--shard", type=shard, default=(1, 1), metavar="K/N", help="the K-th of N parts of the tasks")
-    parser.add_argument("--points", action="store_true", help="write what `galpix error --json` printed as Parquet")
-    given = parser.parse_args(arguments)
-    try:
-        if given.points:
-            pa = _pyarrow()
-            tables = [points(json.loads(Path(name).read_text())) for name in given.captures]
-            _write(pa.concat_tables(tables, promote_options="permissive"), given.out)
-            return 0
-        if given.budgets is None:
-            parser.error("--budgets is missing: give a JSON file with a list of budgets")
-        for file in sweep(given.captures, json.loads(given.budgets.read_text()), given.out, shard=given.shard):
-            print(file)
-    except (ValueError, TypeError, OSError, ImportError) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
