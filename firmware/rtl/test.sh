@@ -117,8 +117,8 @@ packages() {
     local name layout limit
     while read -r name layout limit; do
         mkdir -p "$BUILD/packages/$name"
-        galpix budget --json --layout "$layout" $limit >"$BUILD/packages/$name/budget.json"
-        galpix --quiet rtl --budget "$BUILD/packages/$name/budget.json" --out "$BUILD/packages/$name" >/dev/null
+        galpix budget --json --layout "$layout" $limit >"$BUILD/packages/$name/budget.json" </dev/null
+        galpix --quiet rtl --budget "$BUILD/packages/$name/budget.json" --out "$BUILD/packages/$name" >/dev/null </dev/null
     done <<'LIST'
 velocity565 velocity565 --limit-y=8
 gray4 velocity-gray4 --limit-y=8
