@@ -12,6 +12,7 @@ mod document;
 mod drive;
 mod error;
 mod fills;
+mod fit;
 mod graft;
 mod hidden;
 mod init;
@@ -112,6 +113,8 @@ enum Command {
     Ddoc(ddoc::Ddoc),
     /// Prints every width of a bit budget, its bytes, and its certificate
     Budget(budget::Budget),
+    /// Whether a map fits a chip and its panel: memory, code, instructions and frames a second of each layout and fill
+    Fit(fit::Fit),
     /// Says what a source does not need for a position error: fields, bits, rounding, fill mode
     Plan(plan::PlanArguments),
     /// Runs the stiff and extreme suite: errors by cause, and whether anything wraps or grows
@@ -154,6 +157,7 @@ pub fn main() -> ExitCode {
         Command::Graft(graft) => graft.run(),
         Command::Ddoc(ddoc) => ddoc.run(),
         Command::Budget(budget) => budget.run(),
+        Command::Fit(fit) => fit.run(),
         Command::Plan(plan) => plan.run(),
         Command::Stability(stability) => stability.run(),
         Command::Send(send) => send.run(),

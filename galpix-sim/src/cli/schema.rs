@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema as Derived};
 use super::document::Failure;
 use super::{CliError, budget, init, print, rtl, scenes, vectors};
 use crate::send;
-use crate::study::{self, Headed, check, compare, ddoc, demo, error, fills, graft, layers, plan, run, stability};
+use crate::study::{self, Headed, check, compare, ddoc, demo, error, fills, fit, graft, layers, plan, run, stability};
 
 /// A kind of document.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -23,6 +23,7 @@ pub enum Kind {
     Graft,
     Ddoc,
     Budget,
+    Fit,
     Plan,
     Stability,
     Send,
@@ -56,6 +57,7 @@ impl Schema {
             Kind::Graft => of::<Headed<'_, graft::report::GraftReport>>(),
             Kind::Ddoc => of::<ddoc::Document>(),
             Kind::Budget => of::<Headed<'_, budget::Printed>>(),
+            Kind::Fit => of::<Headed<'_, fit::Fitting>>(),
             Kind::Plan => of::<Headed<'_, plan::Planning>>(),
             Kind::Stability => of::<Headed<'_, stability::Report>>(),
             Kind::Send => of::<Headed<'_, send::Report>>(),

@@ -17,6 +17,7 @@ pub mod ddoc;
 pub mod demo;
 pub mod error;
 pub mod fills;
+pub mod fit;
 pub mod graft;
 pub mod holes;
 pub mod ink;

@@ -19,6 +19,7 @@ fn every_document_has_a_head_and_the_keys_of_its_schema() {
         ("graft", vec!["graft", "--frames", "24", "--json"]),
         ("ddoc", vec!["ddoc", "knot", "--size", "64", "--json"]),
         ("budget", vec!["budget", "--json"]),
+        ("fit", vec!["fit", "rp2040", "--json"]),
         ("plan", [&["plan", "still", "--max-error", "0.5"][..], &small].concat()),
         ("stability", vec!["stability", "one-cell", "--json"]),
         ("scenes", vec!["scenes", "--json"]),
@@ -67,6 +68,7 @@ fn a_slip_is_told_what_may_have_been_meant() {
         (&["error", "crosing"], "did you mean `crossing`?"),
         (&["graft", "hudd"], "did you mean `hud`?"),
         (&["ddoc", "portl"], "did you mean `portal`?"),
+        (&["fit", "rp2004"], "did you mean `rp2040`?"),
         (&["stability", "on-cell"], "did you mean `one-cell`?"),
         (&["fills", "crossing", "--fills", "metmer"], "did you mean `metamer`?"),
         (&["run", "still", "--fill", "exend"], "'extend'"),
@@ -89,6 +91,7 @@ fn help_says_what_the_columns_are() {
         ("layers", &["offered", "there dB", "us/update"]),
         ("graft", &["cells/f"]),
         ("ddoc", &["strict"]),
+        ("fit", &["RAM KiB", "M instr/frame", "frames/s"]),
     ] {
         let help = done(folder.path(), &[command, "--help"]);
         for column in columns {

@@ -7,6 +7,7 @@ mod demo;
 mod describe;
 mod error;
 mod fills;
+mod fit;
 mod folders;
 mod graft;
 mod init;
