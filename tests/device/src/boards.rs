@@ -106,8 +106,8 @@ impl Board {
 
     /// Returns the panel's pixels on the emulated screen, with 8 bits per channel as [`Self::shown`] makes them.
     ///
-    /// The OLED is drawn four times as large by the emulator, the Pico's map twice as large by its program; the block of
-    /// each pixel must be of one colour. The LCD's pixels are as they are.
+    /// The OLED is drawn four times as large by the emulator, the Pico's map twice as large by its program; each
+    /// pixel's block must be of one colour. The LCD's pixels are as they are.
     pub fn pixels(self, screen: &Picture) -> Result<Picture, Failure> {
         let scale = match self {
             Self::Lm3s6965evb => 4,

@@ -1,4 +1,5 @@
-//! The panel: an ST7789 with 320 x 240 colour pixels over SPI, fed band by band. Each galpixel is 2 x 2 pixels.
+//! The panel: an ST7789 with 320 x 240 colour pixels over SPI, fed band by band. Each galpixel is shown as 2 x 2
+//! pixels.
 //!
 //! `mipidsi` knows the panel's commands. Pixels go out by DMA from two line buffers: one is sent while the other is
 //! filled.
