@@ -142,8 +142,6 @@ fn memory(record: &Record, [width, height]: [u32; 2], fill: &str, rolls: bool, p
 #[must_use]
 pub fn fit(board: &Board, size: Option<[u32; 2]>, picture: &str) -> Fit {
     let panel = board.panel;
-    let pixels = f64::from(panel.width * panel.height);
-    let bus_ms = panel.bus.map_or(0.0, |rate| pixels * f64::from(panel.bits) / rate / 1000.0);
     // The whole panel if the smallest layout fits, else each galpixel as 2 x 2 pixels.
     let whole = [panel.width, panel.height];
     let least = |size| memory(&record(Layout::VELOCITY565, size), size, "none", true, buffers(board));
@@ -152,7 +150,7 @@ pub fn fit(board: &Board, size: Option<[u32; 2]>, picture: &str) -> Fit {
     let mut rows = Vec::new();
     for (name, table, layout) in LAYOUTS {
         for fill in FILLS {
-            rows.push(row(board, (name, table, layout), fill, map, picture, bus_ms));
+            rows.push(row(board, (name, table, layout), fill, map, picture));
         }
     }
     Fit {
@@ -168,10 +166,17 @@ pub fn fit(board: &Board, size: Option<[u32; 2]>, picture: &str) -> Fit {
         map_width: map[0],
         map_height: map[1],
         pixels_per_galpixel: if size.is_some() { 1 } else { scale },
-        bus_ms,
+        bus_ms: bus_ms(board),
         instructions_by_analogy: board.core == boards::Core::Other,
         rows,
     }
+}
+
+/// Returns the time of a picture on the bus.
+fn bus_ms(board: &Board) -> f64 {
+    let panel = board.panel;
+    let bits = f64::from(panel.width * panel.height * panel.bits);
+    panel.bus.map_or(0.0, |rate| bits / rate / 1000.0)
 }
 
 /// Returns bytes of the pictures that a panel scans, or of two lines.
@@ -195,8 +200,8 @@ fn row(
     fill: &'static str,
     map: [u32; 2],
     picture: &str,
-    bus_ms: f64,
 ) -> Row {
+    let bus_ms = bus_ms(board);
     let record = record(layout, map);
     let have = u64::from(board.ram) * 1024;
     let needs = |rolls| memory(&record, map, fill, rolls, buffers(board));

@@ -16,8 +16,8 @@ Processors other than Cortex-M were not counted: their instructions are a range 
 
 A frame is made, then sent: while the bus is busy, the rows are read that it sends next. RAM has the maps, what the fill
 needs, two line buffers (or two pictures that are scanned out), and 8 KiB of stack; flash has the code of the frame and
-28 KiB for the rest of a program. Two maps where they fit, else one and a window of rows. Where the panel's size does not fit
-with Velocity565, a galpixel is shown as 2 x 2 pixels. Budgets are for recognition in 8 frames and an update every 16;
+28 KiB for the rest of a program. Two maps where they fit, else one and a window of rows. Where the panel's size does
+not fit with Velocity565, a galpixel is shown as 2 x 2 pixels. Budgets are for recognition in 8 frames and an update every 16;
 slower motion takes fewer bits, and a window of fewer rows.
 
 Updates, an overlay, and scenes that the device evaluates itself come on top: the emulated Pico's program has all three,
@@ -61,11 +61,14 @@ pub fn markdown() -> String {
             }
         }
     }
-    let _ = writeln!(page, "\n60 frames a second, with velocity565 and extend:\n");
+    let _ = writeln!(
+        page,
+        "\n60 frames a second, with velocity565 and extend:\n\n| board | chip | 60 frames a second |\n| --- | --- | --- |"
+    );
     for board in &boards::ALL {
         let fit = fit(board, None, "layers");
         if let Some(row) = fit.rows.iter().find(|row| (row.layout, row.fill) == ("velocity565", "extend")) {
-            let _ = writeln!(page, "- **{}** ({}): {}.", fit.board, fit.chip, row.sixty);
+            let _ = writeln!(page, "| {} | {} | {} |", fit.board, fit.chip, row.sixty);
         }
     }
     page
