@@ -151,6 +151,8 @@ pub fn write_vectors(py: Python<'_>, folder: PathBuf, seed: u64) -> PyResult<()>
             path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
             std::fs::write(&path, text)
         };
-        vectors::write(seed, &cases, save).map(|_| ()).map_err(|error: std::io::Error| error.into())
+        vectors::write(seed, &cases, &vectors::Choice::default(), save)
+            .map(|_| ())
+            .map_err(|error: std::io::Error| error.into())
     })
 }
