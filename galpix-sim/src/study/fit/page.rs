@@ -17,8 +17,8 @@ Processors other than Cortex-M were not counted: their instructions are a range 
 A frame is made, then sent: while the bus is busy, the rows are read that it sends next. RAM has the maps, what the fill
 needs, two line buffers (or two pictures that are scanned out), and 8 KiB of stack; flash has the code of the frame and
 28 KiB for the rest of a program. Two maps where they fit, else one and a window of rows. Where the panel's size does
-not fit with Velocity565, a galpixel is shown as 2 x 2 pixels. Budgets are for recognition in 8 frames and an update every 16;
-slower motion takes fewer bits, and a window of fewer rows.
+not fit with Velocity565, a galpixel is shown as 2 x 2 pixels. Budgets are for recognition in 8 frames and an update
+every 16; slower motion takes fewer bits, and a window of fewer rows.
 
 Updates, an overlay, and scenes that the device evaluates itself come on top: the emulated Pico's program has all three,
 and its longest frame takes 54 ms at 125 MHz (`firmware/test.sh pace`), where 32 to 40 are stated here for the frame and
