@@ -5,6 +5,7 @@
 #   firmware/rtl/test.sh                all steps
 #   firmware/rtl/test.sh lint proof     only these
 #   firmware/rtl/test.sh --list         their names
+#   firmware/rtl/test.sh rotate-all     that step for all layouts (not among the steps)
 #   firmware/rtl/test.sh table          the table of README.md, with place and route (not among the steps)
 #   GALPIX=PATH firmware/rtl/test.sh    with this galpix, which is else built
 set -euo pipefail
@@ -69,8 +70,15 @@ step_benches() {
     python3 bench.py "$VECTORS" "$BUILD/benches"
 }
 
-# Frames in a band that is smaller than the map, with a display that stops.
+# Frames in a band that is smaller than the map, with a display that stops: of the layout with the most fields.
 step_rotate() {
+    needs iverilog python3 || return 0
+    vectors
+    python3 bench.py "$VECTORS" "$BUILD/benches" --rotate --stall --only frame-shaded
+}
+
+# Not among the steps: the same of all layouts.
+step_rotate-all() {
     needs iverilog python3 || return 0
     vectors
     python3 bench.py "$VECTORS" "$BUILD/benches" --rotate --stall
@@ -170,7 +178,7 @@ main() {
     [ "${1:-}" != --list ] || { printf '%s\n' "${STEPS[@]}"; return; }
     [ "$#" -gt 0 ] || chosen=("${STEPS[@]}")
     for name in "${chosen[@]}"; do
-        [[ " ${STEPS[*]} table " == *" $name "* ]] || { echo "there is no step \"$name\": --list names them" >&2; exit 2; }
+        [[ " ${STEPS[*]} table rotate-all " == *" $name "* ]] || { echo "there is no step \"$name\": --list names them" >&2; exit 2; }
     done
     mkdir -p "$BUILD"
     rm -f "$BUILD/written"
