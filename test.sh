@@ -126,7 +126,7 @@ step_docs() {
 # Unit tests, tests across the crates and doctests, with every fast pass compared with its reference (feature `check`).
 # The machine code has a step of its own.
 step_tests() {
-    cargo test --locked --workspace --all-features -- --skip codegen
+    cargo test --locked --workspace --all-features --no-fail-fast -- --skip codegen
 }
 
 # For `quick`: the same build as in `tests`.

@@ -154,8 +154,8 @@ fn hostile_text_stays_text() {
     report.facts = vec![(hostile.to_owned(), hostile.to_owned())];
     let html = html(&report);
     assert!(!html.contains("<script>alert") && !html.contains("\" onload"));
-    // title twice, intro, fact twice, overview, heading, about, three tags, film, three plots, note
-    assert_eq!(html.matches("&lt;script&gt;alert(&#39;x&#39;)").count(), 16);
+    // title twice, intro, fact twice, contents, overview, heading, about, three tags, film, three plots, note
+    assert_eq!(html.matches("&lt;script&gt;alert(&#39;x&#39;)").count(), 17);
     assert_balanced(&html);
 }
 
