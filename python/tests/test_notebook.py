@@ -18,7 +18,7 @@ def test_the_notebook_makes_the_plot(tmp_path, monkeypatch):
     notebook = nbformat.read(PROJECT / "python/examples/frames_ahead.ipynb", as_version=4)
     nbclient.NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(tmp_path)}}).execute()
     made = (tmp_path / "frames-ahead.svg").read_text()
-    kept = (PROJECT / "docs/figures/frames-ahead.svg").read_text()
+    kept = (PROJECT / "docs/plots/frames-ahead.svg").read_text()
     assert len(lines(kept)) == 6 and lines(made).keys() == lines(kept).keys()
     for name, points in lines(kept).items():
         assert len(points) == 12 and lines(made)[name] == pytest.approx(points, abs=0.5), name
