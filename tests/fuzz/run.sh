@@ -2,7 +2,7 @@
 # Feeds each importer with what a coverage-guided fuzzer makes of small files that are right. No crash, no sentence of
 # more than one line, no case beyond a second of the processor, no more than 1 GiB.
 #
-#   tests/fuzz/run.sh               two minutes in all
+#   tests/fuzz/run.sh               two minutes or so: as many executions of each as below, the same ones in each run
 #   tests/fuzz/run.sh 3600          so many seconds in all
 #   tests/fuzz/run.sh 60 exr npy    these importers alone
 #
@@ -12,8 +12,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 
-seconds="${1:-120}"
-[[ "$seconds" =~ ^[1-9][0-9]*$ ]] || { echo "$0: the first argument is a number of seconds" >&2; exit 2; }
+# Executions of an importer in a run without a number of seconds, from one seed: a run that passed passes again.
+RUNS=300000
+seconds="${1:-0}"
+[[ "$seconds" = 0 || "$seconds" =~ ^[1-9][0-9]*$ ]] || { echo "$0: the first argument is a number of seconds" >&2; exit 2; }
 shift || true
 importers=("$@")
 [ "$#" -gt 0 ] || importers=(manifest png jpeg exr npy npz pfm pieh poses obj)
@@ -30,11 +32,11 @@ RUSTFLAGS="$coverage" CARGO_TARGET_DIR="$work/build" cargo build --locked --rele
     --manifest-path tests/fuzz/Cargo.toml
 binary="$work/build/$host/release/importers"
 
-# Fuzzes one importer for so many seconds; prints a line.
+# Fuzzes one importer; prints a line.
 one() {
     local importer="$1" log="$work/$1.log" status=0 runs
     mkdir -p "$work/$importer"
-    IMPORTER="$importer" SEEDS="$work/$importer" "$binary" -max_total_time="$2" -timeout=60 -rss_limit_mb=1024 \
+    IMPORTER="$importer" SEEDS="$work/$importer" "$binary" "${limit[@]}" -timeout=60 -rss_limit_mb=1024 \
         -max_len=4096 -print_final_stats=1 -artifact_prefix="$work/$importer-" "$work/$importer" >"$log" 2>&1 || status=$?
     runs="$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")"
     printf '%s %s\n' "$importer" "${runs:-0}" >>"$work/executions.txt"
@@ -45,12 +47,13 @@ one() {
 }
 
 each=$((seconds * cores / ${#importers[@]}))
-[ "$each" -gt 0 ] || each=1
+limit=(-max_total_time="$((each > 0 ? each : 1))")
+[ "$seconds" != 0 ] || limit=(-runs="$RUNS" -seed=1)
 failed=0 running=()
 collect() { wait "${running[0]}" || failed=1; running=("${running[@]:1}"); }
 for importer in "${importers[@]}"; do
     [ "${#running[@]}" -lt "$cores" ] || collect
-    one "$importer" "$each" &
+    one "$importer" &
     running+=($!)
 done
 while [ "${#running[@]}" -gt 0 ]; do collect; done
