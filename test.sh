@@ -18,12 +18,7 @@ STEPS=(format width clippy docs tests no-std codegen constant-time clauses model
     firmware)
 QUICK=(format width clippy unit golden)
 
-summary=() passed=0 failed=0 skipped=0
-
-say() { printf '\n== %s\n' "$*"; }
-
-# A step calls this and returns: it could not run. Never to be mistaken for "passed".
-skip() { skip_reason="$*"; }
+source tests/steps.sh
 
 installed() { compgen -G "$(rustc --print target-libdir --target "$1")/libcore-*.rlib" >/dev/null; }
 
@@ -245,31 +240,12 @@ step_firmware() {
 
 # --- running them ----------------------------------------------------------------------------------------------------
 
-run_step() {
-    local name="$1" started=$SECONDS word
-    skip_reason=""
-    say "$name"
-    # In a subshell of its own, so that its first failing command ends it and not the others.
-    local reason status=0
-    reason="$(mktemp)"
-    set +e
-    ( set -e; "step_$name"; printf '%s' "$skip_reason" >"$reason" )
-    status=$?
-    set -e
-    skip_reason="$(cat "$reason")"
-    rm -f "$reason"
-    if [ "$status" != 0 ]; then
-        word="FAILED" failed=$((failed + 1))
-    elif [ -n "$skip_reason" ]; then
-        word="skipped: $skip_reason" skipped=$((skipped + 1))
-    else
-        word="passed" passed=$((passed + 1))
-    fi
-    summary+=("$(printf '%-13s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
-    # What tests/assurance/assurance.py says of the last run.
+# Runs a step, and records for tests/assurance/assurance.py when it ran and how it ended.
+record_step() {
+    run_step "$1"
     mkdir -p target
     [ -f target/test-steps.csv ] || echo "step,seconds,result,date,commit" >target/test-steps.csv
-    printf '%s,%d,%s,%s,%s\n' "$name" $((SECONDS - started)) "${word%%:*}" "$(date -u +%F)" \
+    printf '%s,%d,%s,%s,%s\n' "$1" "$took" "${word%%:*}" "$(date -u +%F)" \
         "$(git rev-parse --short HEAD 2>/dev/null || echo unknown)" >>target/test-steps.csv
 }
 
@@ -304,17 +280,15 @@ main() {
     if [ -n "$concurrent" ]; then
         log="$(mktemp)"
         say "$concurrent: runs while the other steps do, and is printed after them"
-        { run_step "$concurrent"; printf '%s\n' "${summary[@]}" >"$log.summary"; } >"$log" 2>&1 &
+        { record_step "$concurrent"; printf '%s\n' "${summary[@]}" >"$log.summary"; } >"$log" 2>&1 &
     fi
-    for name in "${chosen[@]}"; do [ "$name" = "$concurrent" ] || run_step "$name"; done
+    for name in "${chosen[@]}"; do [ "$name" = "$concurrent" ] || record_step "$name"; done
     if [ -n "$concurrent" ]; then
         wait
         collect "$log"
         rm -f "$log" "$log.summary"
     fi
-    printf '\n'
-    printf '%s\n' "${summary[@]}"
-    printf '%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped"
+    print_summary
     [ "$failed" = 0 ]
 }
 

@@ -26,14 +26,9 @@ TARGETS=("${PROOF_TARGETS[@]}" "$LCD_TARGET")
 TEXT_TARGETS=(thumbv6m-none-eabi thumbv7em-none-eabi riscv32imac-unknown-none-elf)
 STEPS=(format clippy build proof machine-code text kernels cost screens faults pace)
 
-summary=() passed=0 failed=0 skipped=0
+source ../tests/steps.sh
 write_cost=()
 write_text=()
-
-say() { printf '\n== %s\n' "$*"; }
-
-# A step calls this and returns: it could not run. Never to be mistaken for "passed".
-skip() { skip_reason="$*"; }
 
 # Ends what hangs, where there is a command for it.
 limited() { if command -v timeout >/dev/null; then timeout "$@"; else shift; "$@"; fi; }
@@ -289,29 +284,6 @@ step_pace() { devices pace --check; }
 
 # --- running them ----------------------------------------------------------------------------------------------------
 
-run_step() {
-    local name="$1" started=$SECONDS word
-    skip_reason=""
-    say "$name"
-    # In a subshell of its own, so that its first failing command ends it and not the others.
-    local reason status=0
-    reason="$(mktemp)"
-    set +e
-    ( set -e; "step_$name"; printf '%s' "$skip_reason" >"$reason" )
-    status=$?
-    set -e
-    skip_reason="$(cat "$reason")"
-    rm -f "$reason"
-    if [ "$status" != 0 ]; then
-        word="FAILED" failed=$((failed + 1))
-    elif [ -n "$skip_reason" ]; then
-        word="skipped: $skip_reason" skipped=$((skipped + 1))
-    else
-        word="passed" passed=$((passed + 1))
-    fi
-    summary+=("$(printf '%-13s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
-}
-
 main() {
     local name chosen=("$@")
     case "${1:-}" in
@@ -325,11 +297,7 @@ main() {
     done
     install_missing
     for name in "${chosen[@]}"; do run_step "$name"; done
-    printf '\n'
-    printf '%s\n' "${summary[@]}"
-    printf '%d passed, %d failed, %d skipped\n' "$passed" "$failed" "$skipped"
-    [ "$failed" = 0 ] || exit 1
-    [ "$skipped" = 0 ] || exit 3
+    finish
 }
 
 main "$@"

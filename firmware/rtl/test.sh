@@ -17,8 +17,8 @@ VECTORS="$BUILD/vectors"
 LAYOUTS=(paper shaded uneven flat565 velocity565 gray8 gray4 coarse straddle bright565 still)
 KINDS=(step propagate resolve edge fill frame)
 
-# A step calls this and returns: it could not run. Never to be mistaken for "passed".
-skip() { skip_reason="$*"; }
+source ../../tests/steps.sh
+label="rtl "
 
 needs() {
     local tool
@@ -152,27 +152,6 @@ step_table() {
     return "$status"
 }
 
-run_step() {
-    local name="$1" started=$SECONDS word status=0 reason
-    skip_reason=""
-    printf '\n== rtl: %s\n' "$name"
-    reason="$(mktemp)"
-    set +e
-    ( set -e; "step_$name"; printf '%s' "$skip_reason" >"$reason" )
-    status=$?
-    set -e
-    skip_reason="$(cat "$reason")"
-    rm -f "$reason"
-    if [ "$status" != 0 ]; then
-        word="FAILED" failed=$((failed + 1))
-    elif [ -n "$skip_reason" ]; then
-        word="skipped: $skip_reason" skipped=$((skipped + 1))
-    else
-        word="passed"
-    fi
-    summary+=("$(printf 'rtl %-10s %4d s  %s' "$name" $((SECONDS - started)) "$word")")
-}
-
 main() {
     local name chosen=("$@")
     [ "${1:-}" != --list ] || { printf '%s\n' "${STEPS[@]}"; return; }
@@ -182,12 +161,8 @@ main() {
     done
     mkdir -p "$BUILD"
     rm -f "$BUILD/written"
-    summary=() failed=0 skipped=0
     for name in "${chosen[@]}"; do run_step "$name"; done
-    printf '\n'
-    printf '%s\n' "${summary[@]}"
-    [ "$failed" = 0 ] || exit 1
-    [ "$skipped" = 0 ] || exit 3
+    finish
 }
 
 main "$@"

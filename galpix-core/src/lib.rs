@@ -116,7 +116,7 @@ pub mod overlay {
 
 /// Frames with a single map, in little more than half the memory of two.
 pub mod rolling {
-    pub use crate::fast::rolling::{Rolling, reach, rows};
+    pub use crate::fast::rolling::{Rolling, reach, reach_along, rows};
 }
 
 pub use error::{BudgetError, SetupError};

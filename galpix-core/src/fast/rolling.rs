@@ -31,8 +31,15 @@ use crate::map::Galpixmap;
 /// Returns the largest number of rows that a galpixel moves in a frame.
 #[must_use]
 pub const fn reach(record: &Record) -> u32 {
-    let scale = &record.scales[1];
-    let (velocity, acceleration) = (record.velocity(1).bits as u32, record.acceleration(1).bits as u32);
+    reach_along(record, 1)
+}
+
+/// Returns the largest number of cells that a galpixel moves in a frame along x (0) or y (1).
+#[must_use]
+pub const fn reach_along(record: &Record, component: usize) -> u32 {
+    let scale = &record.scales[component];
+    let velocity = record.velocity(component).bits as u32;
+    let acceleration = record.acceleration(component).bits as u32;
     if velocity == 0 {
         return 0;
     }

@@ -34,16 +34,8 @@ pub struct Init {
 pub struct Initialised {
     /// The manifest's file; nothing with `--print`.
     file: Option<String>,
-    /// The manifest, in TOML.
-    manifest: String,
-    /// The update moved to the first later picture, in dB over the whole picture; nothing without one.
-    moved_db: Option<f64>,
-    /// The update unchanged, against the same picture.
-    still_db: Option<f64>,
-    /// Files of the folder that are not used.
-    unused: Vec<String>,
-    /// What the importer remarks.
-    notes: Vec<String>,
+    #[serde(flatten)]
+    proposal: Proposal,
 }
 
 /// Reads `FX,FY,CX,CY`.
@@ -73,11 +65,11 @@ impl Init {
             write_atomically(&file, proposal.manifest.as_bytes())
                 .map_err(|error| CliError::Unusable(format!("{} cannot be written ({error})", file.display())))?;
         }
-        let Proposal { manifest, moved_db, still_db, unused, notes } = proposal;
         if self.json {
             let file = (!self.print).then(|| file.display().to_string());
-            return print_json("init", &Initialised { file, manifest, moved_db, still_db, unused, notes });
+            return print_json("init", &Initialised { file, proposal });
         }
+        let Proposal { manifest, moved_db, still_db, notes, .. } = proposal;
         notes.iter().for_each(|text| note(&format!("note: {}", printable(text))));
         if self.print {
             return print(manifest.trim_end());

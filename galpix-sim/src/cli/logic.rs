@@ -1,11 +1,9 @@
 //! What a budget asks of logic: how far galpixels move, the band of rows for it, memory traffic, adders.
 
 use galpix_core::record::Component;
-use galpix_core::{Bits, Record};
+use galpix_core::{Bits, Record, rolling};
 use schemars::JsonSchema;
 use serde::Serialize;
-
-use crate::vectors::rtl::reach;
 
 /// What hardware asks first.
 #[derive(Serialize, JsonSchema)]
@@ -46,16 +44,15 @@ pub struct Display {
 impl LogicReport {
     /// Derives the figures from a stored form.
     pub fn of(record: &Record, Display { columns, rows, rate }: Display) -> Self {
-        let reach_rows = reach(record, 1);
-        let band_rows = reach_rows.saturating_mul(2).saturating_add(3).min(rows);
+        let band_rows = rolling::rows(record, 1).min(rows);
         let bytes = record.bytes() as u64;
         let adders = [0, 1, 2].map(|component| adder_bits(record, component));
         Self {
             columns,
             rows,
             rate_hz: rate,
-            reach_columns: reach(record, 0),
-            reach_rows,
+            reach_columns: rolling::reach_along(record, 0),
+            reach_rows: rolling::reach(record),
             band_rows,
             band_bytes: u64::from(band_rows) * u64::from(columns) * bytes,
             bytes_a_second: u64::from(columns) * u64::from(rows) * u64::from(rate) * bytes,
@@ -124,7 +121,7 @@ pub fn limited(bits: Bits, limit: u32, plan: impl Fn(Bits) -> Option<Record>) ->
                 "no width of the motion in y keeps within {limit} rows: give `--limit-y` a larger number"
             ));
         };
-        if reach(&record, 1) <= limit {
+        if rolling::reach(&record) <= limit {
             return Ok(narrowed);
         }
         // The field that may move farther goes first; an acceleration only ever adds half of itself in one frame.

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use galpix_core::record::Component;
-use galpix_core::{Bits, Demand, Record};
+use galpix_core::{Bits, Demand, Record, rolling};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
 use super::{CliError, budget, note, print, print_json};
-use crate::output::html::write_atomically;
+use crate::output::save::write_atomically;
 use crate::vectors::rtl;
 
 /// Arguments of `galpix rtl`.
@@ -59,8 +59,8 @@ impl Rtl {
             package: path.display().to_string(),
             layout,
             record_bits: 32 * record.words(),
-            reach_columns: rtl::reach(&record, 0),
-            reach_rows: rtl::reach(&record, 1),
+            reach_columns: rolling::reach_along(&record, 0),
+            reach_rows: rolling::reach(&record),
         };
         note(&format!("{} bits a galpixel, reach {} rows", package.record_bits, package.reach_rows));
         if self.json { print_json("rtl", &package) } else { print(&package.package) }

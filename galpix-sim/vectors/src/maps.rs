@@ -6,7 +6,6 @@ use galpix_core::{Class, Record};
 
 use crate::case::{GridSize, fields};
 use crate::field::{Words, set};
-use crate::rtl::channels;
 
 /// Steele, Lea and Flood's splitmix64: three lines, and the same on every machine for ever.
 #[derive(Clone, Debug)]
@@ -255,8 +254,9 @@ fn pattern_field(name: &str, field: Field, record: &Record, [x, y]: [u32; 2]) ->
         "velocity_x" if in_box => 3 << record.scales[0].velocity_frac >> 1,
         "velocity_y" if in_box => 1 << record.scales[1].velocity_frac >> 1,
         "colour" => {
-            let bars = channels(bits).iter().zip(3..).fold(0, |colour, (&channel, bit)| {
-                colour << channel | if x >> bit & 1 == 1 { all(channel) } else { 0 }
+            let channels = record.layout().colour;
+            let bars = channels.channels().zip(3..).fold(0, |colour, (channel, bit)| {
+                colour | if x >> bit & 1 == 1 { all(channel.bits) << channel.shift } else { 0 }
             });
             match (in_box, (x ^ y) & 4 == 0) {
                 (true, true) => all(bits),

@@ -1,6 +1,7 @@
 //! The parameters of the reference design in `firmware/rtl`, as SystemVerilog.
 
-use galpix_core::record::{Component, Field, Record};
+use galpix_core::record::{Channel, Component, Field, Record};
+use galpix_core::rolling::reach_along;
 use galpix_core::{Bits, Rounding};
 
 use crate::case::{GridSize, fields};
@@ -15,26 +16,6 @@ pub fn package(bits: Bits, record: &Record, about: &str) -> String {
     format!(
         "// {about}\n// Written by `galpix rtl`. docs/vectors.md says what the parameters are.\npackage galpixel;\n{lines}endpackage\n"
     )
-}
-
-/// Returns the farthest that a galpixel moves in a frame along x (0) or y (1), in cells.
-#[must_use]
-pub fn reach(record: &Record, component: usize) -> u32 {
-    let scale = &record.scales[component];
-    let [velocity, acceleration] =
-        [record.velocity(component).bits, record.acceleration(component).bits].map(u32::from);
-    if velocity == 0 {
-        return 0;
-    }
-    let ends = |bits: u32| if bits == 0 { [0, 0] } else { [-(1i64 << (bits - 1)), (1i64 << (bits - 1)) - 1] };
-    let [slowest, fastest] = ends(velocity);
-    let [least, most] = ends(acceleration).map(|end| end << scale.acceleration_up);
-    let [near, far] = ends(scale.position_frac);
-    let half = (1i64 << scale.position_frac) >> 1;
-    let moved = |offset: i64, step: i64| (offset + ((step >> scale.down) << scale.up) + half) >> scale.position_frac;
-    let back = moved(near, 2 * slowest + least);
-    let ahead = moved(far, 2 * fastest + most + (1i64 << scale.down) - 1);
-    u32::try_from(ahead.max(-back)).unwrap_or(u32::MAX)
 }
 
 /// Returns the lines that declare the parameters of a record.
@@ -66,34 +47,25 @@ pub fn parameters(bits: Bits, record: &Record) -> Vec<String> {
         }
     }
     for (index, name) in COMPONENTS.into_iter().enumerate().take(2) {
-        let reach = reach(record, index);
+        let reach = reach_along(record, index);
         lines.push(format!("localparam int {name}_REACH = {reach};"));
         lines.push(format!("localparam int {name}_CELLS = {};", u32::BITS - reach.leading_zeros() + 1));
     }
     let layout = record.layout();
-    let channels = channels(layout.colour.bits());
+    let channels: Vec<Channel> = layout.colour.channels().collect();
     let flags = [("MOTION", layout.velocity), ("DEPTH_MOTION", layout.depth_motion), ("SHADING", layout.luminosity)];
     lines.extend(flags.map(|(name, set)| format!("localparam bit {name} = {};", u8::from(set))));
-    let mut below: u32 = channels.iter().sum();
     for index in 0..3 {
-        let bits = channels.get(index).copied().unwrap_or_default();
-        below -= bits;
+        let Channel { bits, shift } = channels.get(index).copied().unwrap_or(Channel { bits: 0, shift: 0 });
         lines.push(format!("localparam int CHANNEL_{index}_BITS = {bits};"));
-        lines.push(format!("localparam int CHANNEL_{index}_LSB = {below};"));
+        lines.push(format!("localparam int CHANNEL_{index}_LSB = {shift};"));
     }
     lines.push(format!("localparam int CHANNELS = {};", channels.len()));
-    lines.push(format!("localparam int NARROWEST = {};", channels.iter().min().copied().unwrap_or_default()));
+    lines.push(format!(
+        "localparam int NARROWEST = {};",
+        channels.iter().map(|channel| channel.bits).min().unwrap_or_default()
+    ));
     lines
-}
-
-/// Returns the bits of each channel of a colour of so many bits.
-pub const fn channels(bits: u32) -> &'static [u32] {
-    match bits {
-        24 => &[8, 8, 8],
-        16 => &[5, 6, 5],
-        8 => &[8],
-        _ => &[4],
-    }
 }
 
 /// Returns the number by which the reference design knows a rounding.

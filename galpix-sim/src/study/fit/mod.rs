@@ -102,15 +102,23 @@ pub struct Row {
     pub sixty: String,
 }
 
+/// Returns the fill mode of a fill, by its name: push-pull works over what extend has left.
+fn mode(fill: &str) -> FillMode {
+    let name = if fill == "push-pull" { "extend" } else { fill };
+    FillMode::ALL.into_iter().find(|mode| mode.name() == name).unwrap_or(FillMode::None)
+}
+
 /// Returns the instructions of a frame for each cell, from and to, without the scan-out.
 fn frame(board: &Board, layout: &str, picture: &str, fill: &str, rolls: bool) -> [f64; 2] {
     let stage = |stage: &str, fill: &str| counts::count(board.core, layout, picture, stage, fill);
-    // Push-pull works over what extend has left.
-    let (mode, after) = if fill == "push-pull" { ("extend", stage("push-pull", "-")) } else { (fill, [0.0; 2]) };
-    let tells_surfaces = FillMode::ALL.into_iter().any(|known| known.name() == mode && known.uses_edges());
-    let (edge, sweep) =
-        if tells_surfaces { (stage("edge", "-"), stage("sweep", "-")) } else { ([0.0; 2], stage("sweep-alone", "-")) };
-    let fill = stage("fill", mode);
+    let after = if fill == "push-pull" { stage("push-pull", "-") } else { [0.0; 2] };
+    let mode = mode(fill);
+    let (edge, sweep) = if mode.uses_edges() {
+        (stage("edge", "-"), stage("sweep", "-"))
+    } else {
+        ([0.0; 2], stage("sweep-alone", "-"))
+    };
+    let fill = stage("fill", mode.name());
     let window = if rolls {
         let (rolling, frame) = (stage("rolling", "extend"), stage("frame", "extend"));
         [rolling[0] - frame[0], rolling[1] - frame[1]]
@@ -125,10 +133,9 @@ fn memory(record: &Record, [width, height]: [u32; 2], fill: &str, rolls: bool, p
     let cells = u64::from(width) * u64::from(height);
     let words = record.words() as u64;
     let window = u64::from(rolling::rows(record, 1).min(height)) * u64::from(width);
-    let tells_surfaces = matches!(fill, "bullet" | "galdebris" | "extend" | "push-pull");
     let (others, winners) = if rolls { (window, window) } else { (cells, cells) };
     let mut sum = (cells + others) * words + 2 * u64::from(height);
-    if tells_surfaces {
+    if mode(fill).uses_edges() {
         sum += winners + cells.div_ceil(32);
     }
     if fill == "push-pull" {

@@ -66,7 +66,6 @@ pub(super) struct Pictures<'s> {
     update: usize,
     overlay: Option<&'s str>,
     depth: Option<(&'s Series, Depth)>,
-    step: u32,
 }
 
 impl Pictures<'_> {
@@ -148,12 +147,12 @@ pub(super) fn picture<'s>(
     let update = update.or_else(|| places().find(known)).unwrap_or(0);
     let overlay = found.iter().find(|(_, roles)| roles.contains(&Role::Overlay));
     let overlay = overlay.map(|(series, _)| series.members[0].name.as_str());
-    Ok(Pictures { series, channel, later: Vec::new(), update, overlay, depth, step }.with_later())
+    Ok(Pictures { series, channel, later: Vec::new(), update, overlay, depth }.with_later(step))
 }
 
 impl Pictures<'_> {
-    /// Adds the pictures that follow, a display frame for each number.
-    fn with_later(mut self) -> Self {
+    /// Adds the pictures that follow, `step` display frames for each number.
+    fn with_later(mut self, step: u32) -> Self {
         let now = self.now().number;
         let frame = |at: usize, member: &Member| match now.zip(member.number) {
             // Time stamps count as places.
@@ -164,10 +163,7 @@ impl Pictures<'_> {
         };
         let after = self.series.members.iter().enumerate().skip(self.update + 1);
         self.later = after
-            .map(|(at, member)| Later {
-                frame: frame(at, member).saturating_mul(self.step),
-                colour: self.entry(member),
-            })
+            .map(|(at, member)| Later { frame: frame(at, member).saturating_mul(step), colour: self.entry(member) })
             .collect();
         self
     }

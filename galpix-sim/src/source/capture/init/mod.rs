@@ -7,12 +7,14 @@ mod series;
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::folder::Folder;
+use super::manifest::Manifest;
 use super::plausible;
 use super::source::Source;
-use super::{Capture, CaptureError, ImportOptions, MANIFEST, assembled, checked};
+use super::{CaptureError, ImportOptions, MANIFEST, assembled, checked};
 use draft::Draft;
 use role::Role;
 use series::Series;
@@ -30,7 +32,7 @@ pub struct InitOptions {
 }
 
 /// A manifest that runs.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Proposal {
     /// The manifest, in TOML, with comments.
     pub manifest: String,
@@ -65,7 +67,7 @@ pub fn init(folder: &Path, options: &InitOptions) -> Result<Proposal, CaptureErr
         return Err(tried.refusal.unwrap_or_else(|| CaptureError::new(folder, "holds no update", "add its files")));
     };
     let text = best.draft.text(&picture.later);
-    let capture = load(folder, &text)?;
+    let capture = checked(&written(folder, &text), files, &ImportOptions::default())?;
     let first = capture.truths.first();
     let named: Vec<&str> = best.draft.files().chain(picture.files()).collect();
     let names = series.iter().flat_map(Series::names);
@@ -76,7 +78,7 @@ pub fn init(folder: &Path, options: &InitOptions) -> Result<Proposal, CaptureErr
     );
     let manifest = draft::commented(&text, &best, moved_db.zip(still_db), &unused);
     // What is proposed is what runs, comments and all.
-    let capture = load(folder, &manifest)?;
+    Manifest::read(&written(folder, &manifest))?;
     Ok(Proposal { manifest, moved_db, still_db, unused, notes: capture.census.notes })
 }
 
@@ -150,9 +152,4 @@ impl Tried<'_> {
 /// Returns a manifest that is not written yet, as if it were.
 fn written(folder: &Path, manifest: &str) -> Source {
     Source { path: folder.join(MANIFEST), bytes: manifest.as_bytes().to_vec() }
-}
-
-/// Loads a capture from such a manifest.
-fn load(folder: &Path, manifest: &str) -> Result<Capture, CaptureError> {
-    checked(&written(folder, manifest), Folder::on_disk(folder), &ImportOptions::default())
 }
